@@ -92,17 +92,17 @@ TEST_P(BoxTriangleFamily, AnswersAsTheSearches) {
         const double tolerance = 1e-9 * (size(box) + size(triangle) + largest(triangle.place.offset));
         const SignedDistance<3> truth = signed_distance(box, triangle);
         SignedDistance<3> found;
-        const BoxTriangle answer = box_triangle_distance(box, triangle, 0, found);
-        const BoxTriangle overlap = box_triangle_overlap(box, triangle);
-        if (overlap != BoxTriangle::unknown && std::abs(truth.distance) > tolerance) {
-            EXPECT_EQ(overlap, truth.distance < 0 ? BoxTriangle::overlapping : BoxTriangle::apart);
+        const PairAnswer answer = box_triangle_distance(box, triangle, 0, found);
+        const PairAnswer overlap = box_triangle_overlap(box, triangle);
+        if (overlap != PairAnswer::unknown && std::abs(truth.distance) > tolerance) {
+            EXPECT_EQ(overlap, truth.distance < 0 ? PairAnswer::yes : PairAnswer::no);
         }
-        if (answer == BoxTriangle::apart) {
+        if (answer == PairAnswer::no) {
             EXPECT_GT(truth.distance, -tolerance);
         }
-        apart += answer == BoxTriangle::apart ? 1 : 0;
-        unknown += answer == BoxTriangle::unknown ? 1 : 0;
-        if (answer != BoxTriangle::overlapping) continue;
+        apart += answer == PairAnswer::no ? 1 : 0;
+        unknown += answer == PairAnswer::unknown ? 1 : 0;
+        if (answer != PairAnswer::yes) continue;
         ++overlapping;
         EXPECT_NEAR(found.distance, truth.distance, tolerance + 1e-7 * pair.size);
         EXPECT_NEAR(length(found.normal), 1, 1e-12);
@@ -133,7 +133,7 @@ TEST(BoxTriangle, OfABoxOnAFloor) {
     const Box3 box{{0, 0.75f, 0}, {1, 1, 1}};
     const Triangle3 floor{{-4, 0, -4}, {-4, 0, 8}, {8, 0, -4}};
     SignedDistance<3> found;
-    ASSERT_EQ(box_triangle_distance(convex(box), convex(floor), 0, found), BoxTriangle::overlapping);
+    ASSERT_EQ(box_triangle_distance(convex(box), convex(floor), 0, found), PairAnswer::yes);
     EXPECT_EQ(found.distance, -0.25);
     EXPECT_EQ(found.normal, DVec<3>(0, -1, 0));
     EXPECT_EQ(found.on_a.y, -0.25);

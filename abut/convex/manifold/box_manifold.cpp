@@ -5,19 +5,24 @@
 namespace abut::detail {
 namespace {
 
+/// A point in the frame of a box, in the world.
+lanes::Double3 point_of(const PlacedBox& box, const Triple& place) {
+    return box.center + box.axes.vector(in_lanes(place));
+}
+
 /// Writes points in place, component by component.
 struct Writer {
     const PlacedBox &a, &b;
     const BoxClosest& closest;
     double margin, tolerance;
-    DVec<3>* on_a;
+    lanes::Double3* on_a;
     Manifold<3>& points;
 
     void add_witness() const {
         Triple middle;
         for (std::size_t k = 0; k < 3; ++k) middle[k] = closest.on_a[k] + closest.normal[k] * (0.5 * closest.distance);
         ManifoldPoint<3>& point = points.points[points.count++];
-        lanes::put(a.point(middle), &point.position.x);
+        lanes::put(point_of(a, middle), &point.position.x);
         point.depth = -closest.distance;
         point.feature = closest.part_a.low << 8 ^ closest.part_b.low;
     }
@@ -50,7 +55,7 @@ struct Writer {
             Triple place = clipped.point_on_face(nearest);
             if (&box == &b)
                 for (std::size_t i = 0; i < 3; ++i) place[i] += out[i] * clipped.gap[nearest];
-            lanes::put(box.point(place), &on_a->x);
+            *on_a = point_of(box, place);
         }
 
         std::array<std::size_t, 4> selected{0, 1, 2, 3};
@@ -68,7 +73,7 @@ struct Writer {
             const double along = clipped.gap[number[i]] + 0.5 * depths[i];
             for (std::size_t axis = 0; axis < 3; ++axis) place[axis] += out[axis] * along;
             ManifoldPoint<3>& point = points.points[points.count++];
-            lanes::put(box.point(place), &point.position.x);
+            lanes::put(point_of(box, place), &point.position.x);
             point.depth = margin > 0 || depths[i] > 0 ? depths[i] : 0;
             point.feature = clipped.name(number[i]) | name;
         }
@@ -79,7 +84,7 @@ struct Writer {
 }  // namespace
 
 bool manifold_of_boxes(const PlacedBox& a, const PlacedBox& b, const BoxFrame& frame, const BoxClosest& closest,
-                       double margin, DVec<3>* on_a, Manifold<3>& points) {
+                       double margin, lanes::Double3* on_a, Manifold<3>& points) {
     const Triple &half_a = frame.half_a, &half_b = frame.half_b;
     const double tolerance = 1e-6 * std::min(half_a[0] + half_a[1] + half_a[2], half_b[0] + half_b[1] + half_b[2]);
     const Writer writer{a, b, closest, margin, tolerance, on_a, points};

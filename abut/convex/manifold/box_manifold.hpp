@@ -12,6 +12,6 @@ namespace abut::detail {
 /// not be known: it is written to `on_a`, in the world, unless that is null. Returns false, with the points undefined,
 /// if it isn't found.
 bool manifold_of_boxes(const PlacedBox& a, const PlacedBox& b, const BoxFrame& frame, const BoxClosest& closest,
-                       double margin, DVec<3>* on_a, Manifold<3>& points);
+                       double margin, lanes::Double3* on_a, Manifold<3>& points);
 
 }  // namespace abut::detail

@@ -8,6 +8,17 @@ namespace {
 
 constexpr double tilt_squared = 1 - aligned * aligned;
 
+/// A segment with a ball around it, in scalars.
+struct RoundSegment {
+    DVec<3> from, to;
+    double radius;
+
+    explicit RoundSegment(const PlacedSegment& segment)
+        : from(lanes::vector(segment.from)), to(lanes::vector(segment.to)), radius(segment.radius[0]) {}
+    /// Half of its length, with the ball.
+    double reach() const { return 0.5 * length(to - from) + radius; }
+};
+
 /// A segment and the part of it that clipping left.
 struct Clipped {
     DVec<3> from, to;
@@ -60,10 +71,10 @@ void add_deepest(const SignedDistance<3>& distance, double tolerance, Manifold<3
 }
 
 /// Clips two nearly parallel segments to their common range.
-void clip_segments(const Convex<3>& a, const Convex<3>& b, const SignedDistance<3>& distance, double margin,
+void clip_segments(const RoundSegment& a, const RoundSegment& b, const SignedDistance<3>& distance, double margin,
                    Manifold<3>& result) {
-    const DVec<3> origin = core_corner(a, 0), u = core_corner(a, 1) - origin;
-    Clipped clipped{core_corner(b, 0) - origin, core_corner(b, 1) - origin};
+    const DVec<3> origin = a.from, u = a.to - origin;
+    Clipped clipped{b.from - origin, b.to - origin};
     const DVec<3> v = clipped.to - clipped.from, &normal = distance.normal;
     const double uu = dot(u, u), vv = dot(v, v), uv = dot(u, v), tilt = dot(u, normal);
     const double tolerance = 1e-6 * std::min(0.5 * std::sqrt(uu) + a.radius, 0.5 * std::sqrt(vv) + b.radius);
@@ -93,27 +104,23 @@ void clip_segments(const Convex<3>& a, const Convex<3>& b, const SignedDistance<
     add_deepest(distance, tolerance, result);
 }
 
-/// Half of its length, with the ball.
-double reach_of(const Convex<3>& segment) {
-    return 0.5 * length(core_corner(segment, 1) - core_corner(segment, 0)) + segment.radius;
-}
-
 /// Clips the segment to the face of the box along the normal.
-bool clip_to_box(const Convex<3>& box, const Convex<3>& segment, const SignedDistance<3>& distance, const DVec<3>& out,
-                 double margin, Manifold<3>& result) {
-    const DVec<3> half = DVec<3>(box.own[0]) * box.scale, local = box.place.transposed(out) / box.scale;
+bool clip_to_box(const PlacedBox& box, const RoundSegment& segment, const SignedDistance<3>& distance,
+                 const DVec<3>& out, double margin, Manifold<3>& result) {
+    const DVec<3> half = lanes::vector(box.half), local = lanes::vector(box.axes.transposed(lanes::double3(out)));
+    const double radius = box.radius[0];
     int up = 0;
     for (int i = 1; i < 3; ++i)
         if (std::abs(local[i]) > std::abs(local[up])) up = i;
     const int u = (up + 1) % 3, v = (up + 2) % 3;
     if (std::min(half[u], half[v]) <= 1e-5 * std::max(half[u], half[v])) return false;
-    const DVec<3> from = core_corner(segment, 0), to = core_corner(segment, 1);
-    const double tolerance = 1e-6 * std::min(length(half) + box.radius, reach_of(segment));
+    const DVec<3>&from = segment.from, &to = segment.to;
+    const double tolerance = 1e-6 * std::min(length(half) + radius, segment.reach());
     if (std::abs(local[up]) >= aligned) {
         const double sign = local[up] < 0 ? -1 : 1, slope_u = local[u] / local[up], slope_v = local[v] / local[up];
         // Relative to the face, projected onto it along the normal.
         const auto seen = [&](const DVec<3>& point) {
-            DVec<3> place = box.place.transposed(point - box.place.offset) / box.scale;
+            DVec<3> place = lanes::vector(box.axes.transposed(lanes::double3(point) - box.center));
             const double height = place[up] - sign * half[up];
             place[u] -= slope_u * height;
             place[v] -= slope_v * height;
@@ -128,7 +135,7 @@ bool clip_to_box(const Convex<3>& box, const Convex<3>& segment, const SignedDis
         if (!clipped.empty) clipped.cut(-clipped.from[u] - half[u], -clipped.to[u] - half[u], low | low_u);
         if (!clipped.empty) {
             PointWriter writer{result, out, -distance.distance, margin, tolerance, segment.radius};
-            const double reach = box.radius + segment.radius, one = 1 / std::abs(local[up]);
+            const double reach = radius + segment.radius, one = 1 / std::abs(local[up]);
             const auto add = [&](double part, std::uint32_t name) {
                 const double height = clipped.from[up] + (clipped.to[up] - clipped.from[up]) * part;
                 writer.add(part >= 1 ? to : from + (to - from) * part, reach - height * one, name);
@@ -145,12 +152,12 @@ bool clip_to_box(const Convex<3>& box, const Convex<3>& segment, const SignedDis
 /// outside. Returns false if the face is too narrow to have a direction.
 template <class Number>
 bool clip_to_face(const Convex<3>& solid, std::uint32_t count, const Number& number, const DVec<3>& face_normal,
-                  const Convex<3>& segment, const SignedDistance<3>& distance, const DVec<3>& out, double tolerance,
+                  const RoundSegment& segment, const SignedDistance<3>& distance, const DVec<3>& out, double tolerance,
                   double margin, Manifold<3>& result) {
     const double along = dot(face_normal, out);
     if (along >= aligned) {
         const DVec<3> origin = core_corner(solid, number(0));
-        Clipped clipped{core_corner(segment, 0) - origin, core_corner(segment, 1) - origin};
+        Clipped clipped{segment.from - origin, segment.to - origin};
         DVec<3> from(0.0), area(0.0), last(0.0);
         double longest = 0;
         for (std::uint32_t i = 0; i < count; ++i) {
@@ -178,20 +185,20 @@ bool clip_to_face(const Convex<3>& solid, std::uint32_t count, const Number& num
     return true;
 }
 
-bool clip_to_triangle(const Convex<3>& triangle, const Convex<3>& segment, const SignedDistance<3>& distance,
+bool clip_to_triangle(const Convex<3>& triangle, const RoundSegment& segment, const SignedDistance<3>& distance,
                       const DVec<3>& out, double margin, Manifold<3>& result) {
     const DVec<3> a = core_corner(triangle, 0), u = core_corner(triangle, 1) - a, v = core_corner(triangle, 2) - a;
     const DVec<3> area = cross(u, v);
     const double square = length_squared(area), longest_squared = std::max(length_squared(u), length_squared(v));
     if (!(square > 1e-6 * longest_squared * longest_squared)) return false;
     const bool behind = dot(area, out) < 0;
-    const double tolerance = 1e-6 * std::min(std::sqrt(longest_squared) + triangle.radius, reach_of(segment));
+    const double tolerance = 1e-6 * std::min(std::sqrt(longest_squared) + triangle.radius, segment.reach());
     return clip_to_face(
         triangle, 3, [&](std::uint32_t i) { return behind ? 2 - i : i; },
         area * ((behind ? -1 : 1) / std::sqrt(square)), segment, distance, out, tolerance, margin, result);
 }
 
-bool clip_to_hull(const Convex<3>& hull, const Convex<3>& segment, const SignedDistance<3>& distance,
+bool clip_to_hull(const Convex<3>& hull, const RoundSegment& segment, const SignedDistance<3>& distance,
                   const DVec<3>& out, double margin, Manifold<3>& result) {
     const Facets& facets = *hull.facets;
     const std::uint32_t face = farthest_point(facets.normals, hull.place.transposed(out));
@@ -201,35 +208,61 @@ bool clip_to_hull(const Convex<3>& hull, const Convex<3>& segment, const SignedD
     double farthest = 0;
     for (const std::uint32_t i : loop)
         farthest = std::max(farthest, length_squared(DVec<3>(hull.vertices()[i]) - DVec<3>(hull.vertices()[loop[0]])));
-    const double tolerance = 1e-6 * std::min(hull.scale * std::sqrt(farthest) + hull.radius, reach_of(segment));
+    const double tolerance = 1e-6 * std::min(hull.scale * std::sqrt(farthest) + hull.radius, segment.reach());
     return clip_to_face(
         hull, static_cast<std::uint32_t>(loop.size()), [&](std::uint32_t i) { return loop[i]; }, normal, segment,
         distance, out, tolerance, margin, result);
 }
 
-/// Clips the segment to the reference face of any supported solid.
-bool clip_to_solid(const Convex<3>& solid, const Convex<3>& segment, const SignedDistance<3>& distance,
+/// Clips the segment to the reference face of a triangle or polyhedron.
+bool clip_to_solid(const Convex<3>& solid, const Convex<3>& other, const SignedDistance<3>& distance,
                    const DVec<3>& out, double margin, Manifold<3>& result) {
-    if (is_plain_box(solid)) return clip_to_box(solid, segment, distance, out, margin, result);
-    if (is_plain_hull(solid)) return clip_to_hull(solid, segment, distance, out, margin, result);
-    return is_round_points(solid, 3) && clip_to_triangle(solid, segment, distance, out, margin, result);
+    return with_core(other, [&](const auto& core) {
+        if constexpr (std::is_same_v<decltype(core), const PlacedSegment&>) {
+            const RoundSegment segment(core);
+            if (is_plain_hull(solid)) return clip_to_hull(solid, segment, distance, out, margin, result);
+            return is_round_points(solid, 3) && clip_to_triangle(solid, segment, distance, out, margin, result);
+        }
+        return false;
+    });
 }
 
 }  // namespace
 
+bool core_manifold(const PlacedSegment& a, const PlacedSegment& b, const SignedDistance<3>& distance, double margin,
+                   Manifold<3>& result) {
+    result.count = 0;
+    clip_segments(RoundSegment(a), RoundSegment(b), distance, margin, result);
+    return true;
+}
+bool core_manifold(const PlacedBox& a, const PlacedSegment& b, const SignedDistance<3>& distance, double margin,
+                   Manifold<3>& result) {
+    result.count = 0;
+    return clip_to_box(a, RoundSegment(b), distance, distance.normal, margin, result);
+}
+bool core_manifold(const PlacedSegment& a, const PlacedBox& b, const SignedDistance<3>& distance, double margin,
+                   Manifold<3>& result) {
+    result.count = 0;
+    return clip_to_box(b, RoundSegment(a), distance, -distance.normal, margin, result);
+}
+bool core_manifold(const PlacedBox&, const PlacedBox&, const SignedDistance<3>&, double, Manifold<3>&) {
+    return false;
+}
+bool deepest_point(const SignedDistance<3>& distance, Manifold<3>& result) {
+    result.count = 0;
+    add_deepest(distance, 0, result);
+    return true;
+}
+
 bool round_manifold(const Convex<3>& a, const Convex<3>& b, const SignedDistance<3>& distance, double margin,
                     Manifold<3>& result) {
     result.count = 0;
-    if (is_round_points(a, 1) || is_round_points(b, 1)) {
-        add_deepest(distance, 0, result);
-        return true;
-    }
-    if (is_round_points(b, 2)) {
-        if (!is_round_points(a, 2)) return clip_to_solid(a, b, distance, distance.normal, margin, result);
-        clip_segments(a, b, distance, margin, result);
-        return true;
-    }
-    return is_round_points(a, 2) && clip_to_solid(b, a, distance, -distance.normal, margin, result);
+    if (is_round_points(a, 1) || is_round_points(b, 1)) return deepest_point(distance, result);
+    const auto of_cores = [&](const auto& x) {
+        return with_core(b, [&](const auto& y) { return core_manifold(x, y, distance, margin, result); });
+    };
+    return with_core(a, of_cores) || clip_to_solid(a, b, distance, distance.normal, margin, result) ||
+           clip_to_solid(b, a, distance, -distance.normal, margin, result);
 }
 
 }  // namespace abut::detail

@@ -3,7 +3,7 @@
 #include <abut/convex/manifold/box_manifold.hpp>
 #include <abut/convex/pairs/box3.hpp>
 #include <abut/convex/pairs/box_axes.hpp>
-#include <abut/convex/pairs/box_distance.hpp>
+#include <abut/convex/pairs/box_closest.hpp>
 
 namespace abut::detail {
 namespace {
@@ -22,11 +22,12 @@ bool still_separated(const PlacedBox& a, const PlacedBox& b, double reach, const
            dot(axis, axis)[0] < 1 + 1e-6;
 }
 
-void store_axis(const PlacedBox& a, const Triple& normal, Cache* cache) {
-    if (cache == nullptr) return;
-    const lanes::Double3 axis = a.vector(normal);
+void store_axis(const lanes::Double3& axis, Cache* cache) {
     lanes::store(axis.xy, cache->axis.data());
     cache->axis[2] = static_cast<float>(axis.z[0]);
+}
+void store_axis(const PlacedBox& a, const Triple& normal, Cache* cache) {
+    if (cache != nullptr) store_axis(a.axes.vector(in_lanes(normal)), cache);
 }
 
 Triple face_normal(const BoxFrame& frame, std::size_t number) {
@@ -102,21 +103,29 @@ std::uint32_t foremost_corner(const BoxFrame& frame, std::size_t axis) {
 }
 
 /// The closest points of disjoint boxes. In most cases one of them is the corner that reaches farthest against the face
-/// with the widest gap.
+/// with the widest gap, or both are on edges. Else the corner nearest to where one search ends starts the next, by
+/// turns of either box.
 bool nearest_points(const BoxFrame& frame, const BoxFaceGap& face, BoxClosest& closest) {
-    if (face.gap > 0 && face.number < 3) {
-        if (nearest_from_corner(frame, foremost_corner(frame, face.number), closest)) return true;
-    } else if (face.gap > 0) {
-        const BoxFrame swapped_frame = frame.swapped();
-        if (nearest_from_corner(swapped_frame, foremost_corner(swapped_frame, face.number - 3), closest)) {
-            flip(frame, closest);
-            return true;
-        }
-    }
-    if (nearest_corner(frame, closest)) return true;
+    const bool of_b = face.number > 2;
+    BoxFrame swapped_frame;
+    if (of_b) swapped_frame = frame.swapped();
+    const auto find_from = [&](bool in_b, std::uint32_t corner) {
+        if (!nearest_from_corner(in_b ? swapped_frame : frame, corner, closest)) return false;
+        if (in_b) flip(frame, closest);
+        return true;
+    };
+    if (face.gap > 0 && find_from(of_b, foremost_corner(of_b ? swapped_frame : frame, face.number % 3))) return true;
+    std::uint32_t corner = closest.part_a.low;
+
     const BoxEdgeGaps edges(frame, face.gap);
     const std::size_t number = edges.widest(0);
     if (number < 9 && closest_on_edges(frame, number, closest) && closest.distance > 0) return true;
+
+    if (!of_b) swapped_frame = frame.swapped();
+    for (int turn = 1; turn < 5; ++turn) {
+        if (find_from(of_b != (turn % 2 == 1), corner)) return true;
+        corner = closest.part_a.low;
+    }
     return face.gap > 0 && closest_on_face(frame, face, closest);
 }
 
@@ -141,99 +150,114 @@ bool is_corner(const std::array<std::uint32_t, 4>& numbers, std::uint32_t count)
     return !other;
 }
 
-/// Warm start: whether the cached corner is still the closest one.
-bool nearest_as_before(const PlacedBox& a, const PlacedBox& b, const Cache& cache, BoxesDistance& result) {
-    const bool of_a = is_corner(cache.corner_a, cache.count), of_b = is_corner(cache.corner_b, cache.count);
-    if (cache.count == 0 || !(of_a || of_b)) return false;
-    const PlacedBox &first = of_b ? a : b, &second = of_b ? b : a;
-    const std::uint32_t corner = of_b ? cache.corner_b[0] : cache.corner_a[0];
-    BoxClosest& closest = result.closest;
+/// The axis of an edge by its two corners; 3 if they are not the ends of an edge.
+std::uint32_t axis_of_edge(const std::array<std::uint32_t, 4>& corners) {
+    const std::uint32_t bit = corners[0] ^ corners[1];
+    return bit == 1 ? 0 : bit == 2 ? 1 : bit == 4 ? 2 : 3;
+}
+
+/// Warm start: whether the cached corner, or the cached edges, are still the closest ones.
+bool nearest_as_before(const PlacedBox& a, const PlacedBox& b, const Cache& cache, CoresDistance& found) {
+    if (cache.count == 0) return false;
+    const bool of_b = is_corner(cache.corner_b, cache.count), of_a = !of_b && is_corner(cache.corner_a, cache.count);
+    const PlacedBox &first = of_a ? b : a, &second = of_a ? a : b;
     const BoxFaceGaps gaps(first, second);
-    if (!gaps.finite() || !nearest_from_corner(gaps.frame(), corner, closest)) return false;
-    set_world_distance(first, closest, !of_b, result.distance);
-    if (!of_b) std::swap(closest.part_a, closest.part_b);
+    if (!gaps.finite()) return false;
+    const BoxFrame frame = gaps.frame();
+    BoxClosest closest;
+    if (of_a || of_b) {
+        if (!nearest_from_corner(frame, of_b ? cache.corner_b[0] : cache.corner_a[0], closest)) return false;
+    } else {
+        const std::uint32_t edge_a = axis_of_edge(cache.corner_a), edge_b = axis_of_edge(cache.corner_b);
+        if (cache.count != 2 || edge_a == 3 || edge_b == 3) return false;
+        if (!closest_on_edges(frame, 3 * edge_a + edge_b, closest) || !(closest.distance > 0)) return false;
+    }
+    set_world_distance(first, closest, of_a, found);
     return true;
 }
 
-void store(const BoxesDistance& result, Cache& cache) {
+void store(const CoresDistance& found, Cache& cache) {
     ClosestCorners<3> corners;
-    set_corners(result.closest, corners);
+    set_corners(found.part_a, found.part_b, corners);
     for (std::size_t i = 0; i < 3; ++i) {
-        cache.axis[i] = static_cast<float>(result.distance.normal[static_cast<int>(i)]);
         cache.corner_a[i] = corners.a[i];
         cache.corner_b[i] = corners.b[i];
     }
     cache.count = static_cast<std::uint32_t>(corners.count);
+    store_axis(found.normal, &cache);
 }
 
 }  // namespace
 
-BoxAnswer boxes_within(const PlacedBox& a, const PlacedBox& b, double reach, Cache* cache) {
-    if (still_separated(a, b, reach, cache)) return BoxAnswer::no;
+PairAnswer boxes_overlap(const PlacedBox& a, const PlacedBox& b, Cache* cache) {
+    const double reach = a.radius[0] + b.radius[0];
+    if (still_separated(a, b, reach, cache)) return PairAnswer::no;
     const BoxFaceGaps gaps(a, b);
-    if (!gaps.finite()) return BoxAnswer::unknown;
-    if (cache == nullptr && gaps.of_a_wider_than(reach)) return BoxAnswer::no;
+    if (!gaps.finite()) return PairAnswer::unknown;
+    if (cache == nullptr && gaps.of_a_wider_than(reach)) return PairAnswer::no;
     const BoxFaceGap face = gaps.widest();
-    if (cache == nullptr && face.gap > reach) return BoxAnswer::no;
+    if (cache == nullptr && face.gap > reach) return PairAnswer::no;
     const BoxFrame frame = gaps.frame();
     if (face.gap > reach) {
         store_axis(a, face_normal(frame, face.number), cache);
-        return BoxAnswer::no;
+        return PairAnswer::no;
     }
     const BoxEdgeGaps edges(frame, face.gap);
-    if (face.gap <= 0 && !edges.apart) return BoxAnswer::yes;
+    if (face.gap <= 0 && !edges.apart) return PairAnswer::yes;
     if (reach == 0 || (edges.apart && edges.wider_than(reach))) {
         if (cache != nullptr) store_axis(a, unit_edge_axis(frame, edges.widest(0)), cache);
-        return BoxAnswer::no;
+        return PairAnswer::no;
     }
     BoxClosest closest;
-    if (!nearest_points(frame, face, closest)) return BoxAnswer::unknown;
-    if (closest.distance <= reach) return BoxAnswer::yes;
+    if (!nearest_points(frame, face, closest)) return PairAnswer::unknown;
+    if (closest.distance <= reach) return PairAnswer::yes;
     store_axis(a, closest.normal, cache);
-    return BoxAnswer::no;
+    return PairAnswer::no;
 }
 
-BoxAnswer distance_of_boxes(const PlacedBox& a, const PlacedBox& b, Cache* cache, BoxesDistance& result) {
-    if (cache == nullptr || !nearest_as_before(a, b, *cache, result)) {
+bool distance_of_boxes(const PlacedBox& a, const PlacedBox& b, Cache* cache, CoresDistance& found) {
+    if (cache == nullptr || !nearest_as_before(a, b, *cache, found)) {
         const BoxFaceGaps gaps(a, b);
-        if (!gaps.finite() || !find_closest(gaps.frame(), gaps.widest(), result.closest)) return BoxAnswer::unknown;
-        set_world_distance(a, result.closest, false, result.distance);
+        BoxClosest closest;
+        if (!gaps.finite() || !find_closest(gaps.frame(), gaps.widest(), closest)) return false;
+        set_world_distance(a, closest, false, found);
     }
-    if (cache != nullptr && result.distance.distance > 0) store(result, *cache);
-    return BoxAnswer::yes;
+    if (cache != nullptr && found.distance[0] > 0) store(found, *cache);
+    add_balls(a.radius, b.radius, found);
+    return true;
 }
 
-BoxAnswer contact_of_boxes(const PlacedBox& a, const PlacedBox& b, double reach, double margin, Cache* cache,
-                           BoxesDistance& result, Manifold<3>& points) {
-    if (still_separated(a, b, reach, cache)) return BoxAnswer::no;
+PairAnswer contact_of_boxes(const PlacedBox& a, const PlacedBox& b, double reach, double margin, Cache* cache,
+                            CoresDistance& found, Manifold<3>& points) {
+    if (still_separated(a, b, reach, cache)) return PairAnswer::no;
     const BoxFaceGaps gaps(a, b);
-    if (!gaps.finite()) return BoxAnswer::unknown;
+    if (!gaps.finite()) return PairAnswer::unknown;
     const BoxFaceGap face = gaps.widest();
     const BoxFrame frame = gaps.frame();
     if (face.gap > reach) {
         store_axis(a, face_normal(frame, face.number), cache);
-        return BoxAnswer::no;
+        return PairAnswer::no;
     }
     const BoxEdgeGaps edges(frame, face.gap);
     if (edges.apart && edges.wider_than(reach)) {
         store_axis(a, unit_edge_axis(frame, edges.widest(0)), cache);
-        return BoxAnswer::no;
+        return PairAnswer::no;
     }
-    BoxClosest& closest = result.closest;
+    BoxClosest closest;
     const bool apart = face.gap > 0 || edges.apart, along_face = !apart && !edges.beats_face;
-    bool found = true;
+    bool known = true;
     if (along_face)
         set_features_along(frame, face_normal(frame, face.number), face.gap, closest);
     else
-        found = apart ? nearest_points(frame, face, closest) : deepest_edges(frame, face, edges, closest);
-    if (!found) return BoxAnswer::unknown;
+        known = apart ? nearest_points(frame, face, closest) : deepest_edges(frame, face, edges, closest);
+    if (!known) return PairAnswer::unknown;
     if (closest.distance > reach) {
         store_axis(a, closest.normal, cache);
-        return BoxAnswer::no;
+        return PairAnswer::no;
     }
-    set_world_distance(a, closest, false, result.distance);
-    DVec<3>* const place = along_face ? &result.distance.on_a : nullptr;
-    return manifold_of_boxes(a, b, frame, closest, margin, place, points) ? BoxAnswer::yes : BoxAnswer::unknown;
+    set_world_distance(a, closest, false, found);
+    lanes::Double3* const place = along_face ? &found.on_a : nullptr;
+    return manifold_of_boxes(a, b, frame, closest, margin, place, points) ? PairAnswer::yes : PairAnswer::unknown;
 }
 
 void record_axes(const PlacedBox& a, const PlacedBox& b, Trace<3>& trace) {

@@ -6,8 +6,6 @@
 namespace abut::detail {
 namespace {
 
-/// An edge axis of a smaller squared length is nothing but rounding.
-constexpr double no_axis = 1e-12;
 /// The rounding error of a gap along an edge axis, relative to the sum of all coordinates, before it is normalised.
 constexpr double relative_rounding = 1e-14;
 
@@ -33,7 +31,7 @@ BoxEdgeGaps::BoxEdgeGaps(const BoxFrame& frame, double face_gap) {
         const Double2 reach_a = half_x * magnitude(y) + half_y * magnitude(x);
         const Pair result{between - (reach_a + reach_b) - rounding_error, x * x + y * y};
         // Without a branch, because it can't be predicted.
-        const Mask2 is_axis = result.square > double2(no_axis);
+        const Mask2 is_axis = result.square > double2(min_axis_square);
         above_zero |= is_axis & (result.gap > Double2{0, 0});
         above_face |= is_axis & (result.gap * magnitude(result.gap) > face * result.square);
         return result;
@@ -73,7 +71,7 @@ BoxEdgeGaps::BoxEdgeGaps(const BoxFrame& frame, double face_gap) {
 bool BoxEdgeGaps::wider_than(double reach) const {
     bool result = false;
     for (std::size_t i = 0; i < 9; ++i)
-        result |= gap[i] > 0 && square[i] > no_axis && gap[i] * gap[i] > reach * reach * square[i];
+        result |= gap[i] > 0 && square[i] > min_axis_square && gap[i] * gap[i] > reach * reach * square[i];
     return result;
 }
 
@@ -82,7 +80,7 @@ std::size_t BoxEdgeGaps::widest(double min_gap) const {
     double maximum = signed_square(min_gap);
     for (std::size_t i = 0; i < 9; ++i) {
         const double here = signed_square(gap[i]);
-        if (!(here > maximum * square[i]) || square[i] <= no_axis) continue;
+        if (!(here > maximum * square[i]) || square[i] <= min_axis_square) continue;
         maximum = here / square[i];
         best = i;
     }

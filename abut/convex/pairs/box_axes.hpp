@@ -87,6 +87,9 @@ struct BoxEdgeGaps {
     std::size_t widest(double min_gap) const;
 };
 
+/// An edge axis of a smaller squared length is nothing but rounding.
+inline constexpr double min_axis_square = 1e-12;
+
 /// The cross product of an edge of each, from A to B, of any length.
 inline Triple edge_axis(const BoxFrame& frame, std::size_t number) {
     const std::size_t i = number / 3;

@@ -2,21 +2,15 @@
 
 // The closest features of two boxes, in the frame of A. For .cpp files.
 
-#include <abut/convex/gjk/signed_distance.hpp>
 #include <abut/convex/pairs/box_frame.hpp>
 
 namespace abut::detail {
-
-/// A vertex, edge or face of a box by its bits: the axes at whose low end it is, and the axes along which it extends.
-struct BoxFeature {
-    std::uint32_t low = 0, free = 0;
-};
 
 struct BoxClosest {
     double distance = 0;
     Triple normal{};  ///< from A to B, of length 1
     Triple on_a{};
-    BoxFeature part_a, part_b;
+    CoreFeature part_a, part_b;
 };
 
 /// Turns the answer for the pair (B, A) in B's frame into that for (A, B) in A's frame; `frame` is A's.
@@ -32,36 +26,27 @@ inline void flip(const BoxFrame& frame, BoxClosest& closest) {
     std::swap(closest.part_a, closest.part_b);
 }
 
-/// The corners that span a feature, by number; three of a face. If there are fewer than three, the last is repeated.
-struct BoxFeatureCorners {
-    std::array<std::uint32_t, 3> numbers;
-    std::size_t count;
+// The closest points of two disjoint boxes in closed form: a corner of one box and the other box, or an edge of each.
+// The plane between the points proves the result.
 
-    explicit BoxFeatureCorners(const BoxFeature& part) {
-        static constexpr std::uint32_t bits[8][3] = {{0, 0, 0}, {0, 1, 1}, {0, 2, 2}, {0, 1, 2},
-                                                     {0, 4, 4}, {0, 1, 4}, {0, 2, 4}, {0, 1, 2}};
-        for (std::size_t i = 0; i < 3; ++i) numbers[i] = part.low | bits[part.free][i];
-        count = part.free == 0 ? 1 : (part.free & (part.free - 1)) == 0 ? 2 : 3;
-    }
-};
+/// The closest points of A and of a corner of B, or of the corner that it leads on to. Returns false if nothing is
+/// proven: another corner, or none, is closest. Then `part_a` is the feature of A nearest to the last one.
+bool nearest_from_corner(const BoxFrame& frame, std::uint32_t corner_of_b, BoxClosest& closest);
 
-/// Converts a result in the frame of a box to the world, without the corners; `by_b` if the box is B.
-inline void set_world_distance(const PlacedBox& box, const BoxClosest& closest, bool by_b, SignedDistance<3>& result) {
+/// The closest points of the two edges of an edge axis, with the separation or overlap along it in `closest.distance`.
+/// Returns false if the edges don't cross within their ends, or are parallel.
+bool closest_on_edges(const BoxFrame& frame, std::size_t number, BoxClosest& closest);
+
+/// Converts a result in the frame of a box to the world; `by_b` if the box is B.
+inline void set_world_distance(const PlacedBox& box, const BoxClosest& closest, bool by_b, CoresDistance& found) {
     using namespace lanes;
-    const Double3 n = double3(closest.normal), p = double3(closest.on_a);
-    const Double3 on_a = by_b ? p + n * double2(closest.distance) : p;
-    result.distance = closest.distance;
-    put(box.axes.vector(n) * double2(by_b ? -1 : 1), &result.normal.x);
-    put(box.center + box.axes.vector(on_a), &result.on_a.x);
-}
-
-inline void set_corners(const BoxClosest& closest, ClosestCorners<3>& corners) {
-    const BoxFeatureCorners of_a(closest.part_a), of_b(closest.part_b);
-    corners.count = std::max(of_a.count, of_b.count);
-    for (std::size_t i = 0; i < 3; ++i) {
-        corners.a[i] = of_a.numbers[i];
-        corners.b[i] = of_b.numbers[i];
-    }
+    const Double2 distance = double2(closest.distance);
+    const Double3 n = in_lanes(closest.normal), p = in_lanes(closest.on_a);
+    found.distance = distance;
+    found.normal = box.axes.vector(n) * double2(by_b ? -1 : 1);
+    found.on_a = box.center + box.axes.vector(by_b ? p + n * distance : p);
+    found.part_a = by_b ? closest.part_b : closest.part_a;
+    found.part_b = by_b ? closest.part_a : closest.part_b;
 }
 
 }  // namespace abut::detail

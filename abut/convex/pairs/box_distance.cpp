@@ -1,41 +1,11 @@
-#include <abut/convex/pairs/box_distance.hpp>
+#include <abut/convex/pairs/box_axes.hpp>
+#include <abut/convex/pairs/box_closest.hpp>
 
 namespace abut::detail {
 namespace {
 
 /// The tolerance of two bounds that should agree, relative to the sum of all coordinates.
 constexpr double box_tolerance = 1e-10;
-
-/// The corner of B nearest to A.
-struct NearestCorner {
-    double square;  ///< of the distance
-    std::uint32_t number;
-};
-
-/// Eight corners at a time; even and odd ones are the two ends of the edges along the first axis.
-NearestCorner nearest_corner_of_b(const BoxFrame& frame) {
-    std::array<double, 8> square{};
-    for (std::size_t i = 0; i < 3; ++i) {
-        std::array<double, 8> along;
-        const double u = frame.axis_b[0][i] * frame.half_b[0], v = frame.axis_b[1][i] * frame.half_b[1],
-                     w = frame.axis_b[2][i] * frame.half_b[2];
-        const double high = frame.middle[i] + w, low = frame.middle[i] - w;
-        const double quarter[4] = {high + v, high - v, low + v, low - v};
-        for (std::size_t k = 0; k < 4; ++k) {
-            along[2 * k] = quarter[k] + u;
-            along[2 * k + 1] = quarter[k] - u;
-        }
-        for (std::size_t k = 0; k < 8; ++k) {
-            const double beyond = std::abs(along[k]) - frame.half_a[i];
-            const double outside = beyond > 0 ? beyond : 0;
-            square[k] += outside * outside;
-        }
-    }
-    NearestCorner best{square[0], 0};
-    for (std::uint32_t k = 1; k < 8; ++k)
-        if (square[k] < best.square) best = {square[k], k};
-    return best;
-}
 
 Triple corner_of_b(const BoxFrame& frame, std::uint32_t number) {
     Triple result{frame.middle[0], frame.middle[1], frame.middle[2]};
@@ -90,20 +60,12 @@ bool nearest_from_corner(const BoxFrame& frame, std::uint32_t corner_of_b, BoxCl
     return false;
 }
 
-bool nearest_corner(const BoxFrame& frame, BoxClosest& closest) {
-    const BoxFrame swapped_frame = frame.swapped();
-    NearestCorner of_b = nearest_corner_of_b(frame), of_a = nearest_corner_of_b(swapped_frame);
-    if (of_b.square <= of_a.square) return from_a_to_corner(frame, of_b.number, closest);
-    if (!from_a_to_corner(swapped_frame, of_a.number, closest)) return false;
-    flip(frame, closest);
-    return true;
-}
-
 bool closest_on_edges(const BoxFrame& frame, std::size_t number, BoxClosest& closest) {
     const std::size_t i = number / 3, j = number % 3;
     const Triple axis = edge_axis(frame, number);
     const Triple rotated = frame.along_b(axis);
     const double square = dot(axis, axis), one = 1 / std::sqrt(square);
+    if (!(square > min_axis_square)) return false;
     const Triple& edge_b = frame.axis_b[j];
     closest.part_a = {0, 1u << i};
     closest.part_b = {0, 1u << j};

@@ -2,8 +2,7 @@
 
 // Two boxes in the frame of the first. For .cpp files.
 
-#include <abut/convex/support.hpp>
-#include <abut/math/simd/rotation-inl.h>
+#include <abut/convex/pairs/placed_cores.hpp>
 
 namespace abut::detail {
 
@@ -22,26 +21,9 @@ constexpr std::size_t last_axis(std::size_t i) {
 }
 
 /// From components: a vector loaded as a whole right after its components were written stalls.
-inline lanes::Double3 double3(const Triple& v) {
+inline lanes::Double3 in_lanes(const Triple& v) {
     return {lanes::double2(v[0], v[1]), lanes::double2(v[2])};
 }
-
-/// A box in the world.
-struct PlacedBox {
-    lanes::Turned axes;  ///< the columns; of length 1
-    lanes::Double3 center, half;
-
-    PlacedBox(const Vec3& center_of_box, const Vec3& half_of_box, const glm::quat& rotation)
-        : axes(lanes::turned(rotation)), center(lanes::loaded(center_of_box)), half(lanes::loaded(half_of_box)) {}
-    PlacedBox(const Affine<3>& place, double scale, const Vec3& half_of_box)
-        : axes(lanes::scaled(place.column, 1 / scale)),
-          center(lanes::double3(place.offset)),
-          half(lanes::loaded(half_of_box) * lanes::double2(scale)) {}
-
-    /// A vector along the axes of the box, in the world.
-    lanes::Double3 vector(const Triple& v) const { return axes.vector(double3(v)); }
-    lanes::Double3 point(const Triple& p) const { return center + vector(p); }
-};
 
 /// B in the frame of A: the middle of A is the origin, its axes are x, y and z. Lengths are those of the world.
 struct BoxFrame {

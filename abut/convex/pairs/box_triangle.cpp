@@ -229,34 +229,34 @@ private:
 
 }  // namespace
 
-BoxTriangle box_triangle_overlap(const Convex<3>& box, const Convex<3>& triangle) {
+PairAnswer box_triangle_overlap(const Convex<3>& box, const Convex<3>& triangle) {
     const double balls = box.radius + triangle.radius;
     const TriangleInBox local(box, triangle);
     Gap gap = widest_face_gap(local, balls);
-    if (gap.width > balls) return BoxTriangle::apart;
-    if (gap.thin) return BoxTriangle::unknown;
+    if (gap.width > balls) return PairAnswer::no;
+    if (gap.thin) return PairAnswer::unknown;
     widen_by_edges(local, balls, triangle_tolerance * local.scale(), gap);
-    if (gap.width > balls) return BoxTriangle::apart;
-    return gap.width > 0 ? BoxTriangle::unknown : BoxTriangle::overlapping;
+    if (gap.width > balls) return PairAnswer::no;
+    return gap.width > 0 ? PairAnswer::unknown : PairAnswer::yes;
 }
 
-BoxTriangle box_triangle_distance(const Convex<3>& box, const Convex<3>& triangle, double reach,
-                                  SignedDistance<3>& result) {
+PairAnswer box_triangle_distance(const Convex<3>& box, const Convex<3>& triangle, double reach,
+                                 SignedDistance<3>& result) {
     const double max_distance = reach + box.radius + triangle.radius;
     const TriangleInBox local(box, triangle);
     Gap gap = widest_face_gap(local, max_distance);
-    if (gap.width > max_distance) return BoxTriangle::apart;
-    if (gap.thin) return BoxTriangle::unknown;
+    if (gap.width > max_distance) return PairAnswer::no;
+    if (gap.thin) return PairAnswer::unknown;
     const double scale = local.scale();
     widen_by_edges(local, max_distance, triangle_tolerance * scale, gap);
-    if (gap.width > max_distance) return BoxTriangle::apart;
+    if (gap.width > max_distance) return PairAnswer::no;
     DVec<3> on_box;
-    if (gap.width > 0 || !ContactFeatures(local, gap, scale).find(on_box, result.corners)) return BoxTriangle::unknown;
+    if (gap.width > 0 || !ContactFeatures(local, gap, scale).find(on_box, result.corners)) return PairAnswer::unknown;
     const double one = 1 / box.scale;
     result.normal = box.place.vector(gap.out) * one;
     result.distance = gap.width - box.radius - triangle.radius;
     result.on_a = box.place.offset + box.place.vector(on_box) * one + result.normal * box.radius;
-    return BoxTriangle::overlapping;
+    return PairAnswer::yes;
 }
 
 }  // namespace abut::detail

@@ -2,6 +2,7 @@
 
 // Overlap and penetration depth of a box and a triangle in 3D, by their separating axes.
 
+#include <abut/convex/pairs/pair_answer.hpp>
 #include <abut/convex/pairs/round3.hpp>
 
 namespace abut::detail {
@@ -18,14 +19,12 @@ inline bool are_box_and_triangle(const Convex<3>& a, const Convex<3>& b) {
     return is_plain_box(a) && has_volume(a.own[0]) && is_round_points(b, 3);
 }
 
-enum class BoxTriangle : std::uint8_t { apart, overlapping, unknown };
-
 /// Whether they share a point. Unknown for slivers, and if only the balls may overlap.
-BoxTriangle box_triangle_overlap(const Convex<3>& box, const Convex<3>& triangle);
+PairAnswer box_triangle_overlap(const Convex<3>& box, const Convex<3>& triangle);
 
-/// The signed distance if they overlap or, without balls, nearly touch. Returns `apart` without a result if the
+/// The signed distance if they overlap or, without balls, nearly touch. Returns `no` without a result if the
 /// distance is above `reach`, and `unknown` if only the general algorithms can decide.
-BoxTriangle box_triangle_distance(const Convex<3>& box, const Convex<3>& triangle, double reach,
-                                  SignedDistance<3>& result);
+PairAnswer box_triangle_distance(const Convex<3>& box, const Convex<3>& triangle, double reach,
+                                 SignedDistance<3>& result);
 
 }  // namespace abut::detail

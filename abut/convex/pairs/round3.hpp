@@ -7,7 +7,7 @@
 // overlapping cores by all faces of their Minkowski difference. If rounding prevents the proof, such as for nearly
 // parallel segments that nearly touch, there is no result, and the caller needs a general algorithm.
 
-#include <abut/convex/gjk/signed_distance.hpp>
+#include <abut/convex/pairs/placed_cores.hpp>
 
 namespace abut::detail {
 
@@ -60,23 +60,49 @@ inline SegmentParameters closest_parameters(const DVec<D>& u, const DVec<D>& v, 
     return {clamp_to_segment((uv * on_b - uw) * one_u), on_b};
 }
 
+/// The closest points of two segments without their balls, relative to an end of A.
+template <int D>
+struct SegmentsClosest {
+    double gap;
+    DVec<D> normal, on_a;
+    SegmentParameters places;
+};
+/// A goes from there along u, B goes between the other two. Returns false if rounding decides.
+template <int D>
+bool closest_on_segments(const DVec<D>& u, const DVec<D>& from, const DVec<D>& to, SegmentsClosest<D>& closest);
+
 /// A point of a core in the world.
 template <int D>
 inline DVec<D> core_corner(const Convex<D>& convex, std::uint32_t i) {
     return convex.place.point(DVec<D>(convex.vertices()[i]));
 }
 
-// Each function gives the signed distance from A to B, with the balls around them. False: there is no result, and
-// `result` is undefined.
+/// Whether the core is a point, a segment or a box.
+inline bool has_core(const Convex<3>& convex) {
+    return is_round_points(convex, 1) || is_round_points(convex, 2) || is_plain_box(convex);
+}
 
-bool point_point(const Convex<3>& a, const Convex<3>& b, SignedDistance<3>& result);
-bool segment_point(const Convex<3>& segment, const Convex<3>& point, SignedDistance<3>& result);
+/// Calls visit(core) with the placed core of a ball, a segment or a box; returns false for others.
+template <class Visit>
+bool with_core(const Convex<3>& convex, Visit&& visit) {
+    using namespace lanes;
+    const auto corner = [&](std::uint32_t i) { return double3(core_corner(convex, i)); };
+    if (is_round_points(convex, 1)) return visit(PlacedBall{corner(0), double2(convex.radius)});
+    if (is_round_points(convex, 2)) return visit(PlacedSegment{corner(0), corner(1), double2(convex.radius)});
+    return is_plain_box(convex) && visit(PlacedBox(convex.place, convex.scale, convex.own[0], convex.radius));
+}
 
-template <int D>
-bool segment_segment(const Convex<D>& a, const Convex<D>& b, SignedDistance<D>& result);
+// Each function gives the signed distance from A to B, with the balls around them. False: there is no result, and it is
+// undefined. Those of round3-inl.h belong to them.
 
-bool box_point(const Convex<3>& box, const Convex<3>& point, SignedDistance<3>& result);
-bool box_segment(const Convex<3>& box, const Convex<3>& segment, SignedDistance<3>& result);
+bool distance_of(const PlacedSegment& segment, const PlacedBall& ball, CoresDistance& found);
+bool distance_of(const PlacedBox& box, const PlacedSegment& segment, CoresDistance& found);
+
+/// For segments that may be parallel or cross.
+bool distance_of_any_segments(const PlacedSegment& a, const PlacedSegment& b, CoresDistance& found);
+
+/// Whether a face of the box proves that the segment is apart from it.
+bool is_beyond_a_face(const PlacedBox& box, const PlacedSegment& segment, double within);
 
 bool triangle_point(const Convex<3>& triangle, const Convex<3>& point, SignedDistance<3>& result);
 bool triangle_segment(const Convex<3>& triangle, const Convex<3>& segment, SignedDistance<3>& result);

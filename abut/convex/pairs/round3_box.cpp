@@ -1,6 +1,5 @@
-// A point or a segment and a box, in the box' own frame.
+// A segment and a box, in the frame of the box.
 
-#include <abut/convex/pairs/box_point-inl.h>
 #include <abut/convex/pairs/round3.hpp>
 
 namespace abut::detail {
@@ -9,42 +8,9 @@ namespace {
 /// A smaller distance, relative to the largest coordinate, may have a direction that is rounding.
 constexpr double min_box_gap = 1e-7;
 
-inline DVec<3> seen_from(const Convex<3>& box, const Convex<3>& convex, std::uint32_t corner) {
-    const DVec<3> local = box.place.transposed(core_corner(convex, corner) - box.place.offset);
-    return box.scale == 1 ? local : local / (box.scale * box.scale);
-}
-
 DVec<3> within(const DVec<3>& half, const DVec<3>& point) {
     return {std::min(std::max(point.x, -half.x), half.x), std::min(std::max(point.y, -half.y), half.y),
             std::min(std::max(point.z, -half.z), half.z)};
-}
-
-/// The corners of a feature of the box, at which the axes in `fixed` are at one end, those in `low` at the low end. A
-/// face has three.
-void set_box_corners(std::uint32_t fixed, std::uint32_t low, ClosestCorners<3>& corners) {
-    corners.a[0] = low;
-    corners.count = 1;
-    for (std::uint32_t i = 0; i < 3; ++i)
-        if ((fixed >> i & 1u) == 0) corners.a[corners.count++] = low | 1u << i;
-}
-
-/// Adds the corners of a point on a segment, by its parameter.
-void set_segment_corners(double part, ClosestCorners<3>& corners) {
-    const std::uint32_t first = part >= 1 ? 1 : 0, last = part <= 0 ? 0 : 1;
-    if (first != last && corners.count == 1) corners.a[corners.count++] = corners.a[0];
-    for (std::size_t i = 0; i < corners.count; ++i) corners.b[i] = i == 0 ? first : last;
-}
-
-/// Converts the result for the cores to the world.
-void set_result(const Convex<3>& box, const Convex<3>& other, double distance, const DVec<3>& normal,
-                const DVec<3>& on_box, SignedDistance<3>& result) {
-    result.normal = box.place.vector(normal);
-    if (box.scale != 1) {
-        result.normal = result.normal / box.scale;
-        distance *= box.scale;
-    }
-    result.distance = distance - box.radius - other.radius;
-    result.on_a = box.place.point(on_box) + result.normal * box.radius;
 }
 
 /// A segment in the frame of the box.
@@ -53,8 +19,25 @@ struct SeenSegment {
     DVec<3> from, to, along;
     double scale;  ///< the largest coordinate
 
+    SeenSegment(const PlacedBox& box, const PlacedSegment& segment)
+        : half(lanes::vector(box.half)),
+          from(lanes::vector(box.axes.transposed(segment.from - box.center))),
+          to(lanes::vector(box.axes.transposed(segment.to - box.center))),
+          along(to - from),
+          scale(std::max({largest(half), largest(from), largest(to)})) {}
+
     DVec<3> at(double part) const { return part >= 1 ? to : from + along * part; }
 };
+
+/// Writes the result for the cores, in the frame of the box, with the point of the segment by its parameter.
+void set_result(const PlacedBox& box, const PlacedSegment& segment, double distance, const DVec<3>& normal,
+                const DVec<3>& on_box, double part, CoresDistance& found) {
+    found.distance = lanes::double2(distance);
+    found.normal = box.axes.vector(lanes::double3(normal));
+    found.on_a = box.center + box.axes.vector(lanes::double3(on_box));
+    found.part_b = {part >= 1 ? 1u : 0u, part > 0 && part < 1 ? 1u : 0u};
+    add_balls(box.radius, segment.radius, found);
+}
 
 /// Half the derivative of the squared distance from the box along the segment.
 double slope(const SeenSegment& s, double part) {
@@ -143,12 +126,16 @@ double parameter_beside(const SeenSegment& s, const SeparatingDirection& directi
 }
 
 /// The cores overlap or nearly touch, with a gap of `gap`.
-bool deep_in_box(const Convex<3>& box, const Convex<3>& segment, const SeenSegment& s, double gap,
-                 SignedDistance<3>& result) {
+bool deep_in_box(const PlacedBox& box, const PlacedSegment& segment, const SeenSegment& s, double gap,
+                 CoresDistance& found) {
     const SeparatingDirection direction = separating_direction(s);
     if (direction.separation > 0 && gap - direction.separation > round3_tolerance * s.scale) return false;
     DVec<3> on_box = s.half;
-    for (int i = 0; i < 3; ++i) on_box[i] = direction.out[i] < 0 ? -s.half[i] : s.half[i];
+    std::uint32_t low = 0;
+    for (int i = 0; i < 3; ++i) {
+        on_box[i] = direction.out[i] < 0 ? -s.half[i] : s.half[i];
+        low |= direction.out[i] < 0 ? 1u << i : 0u;
+    }
     const double part = direction.of_side ? parameter_below(s, direction) : parameter_beside(s, direction, on_box);
     const DVec<3> on_segment = s.at(part), inside = within(s.half, on_segment);
     for (int i = 0; i < 3; ++i)
@@ -156,53 +143,46 @@ bool deep_in_box(const Convex<3>& box, const Convex<3>& segment, const SeenSegme
     // The depth at the points must equal the separation, one point right above the other.
     if (largest(on_segment - on_box - direction.out * direction.separation) > round3_tolerance * s.scale) return false;
 
-    set_result(box, segment, direction.separation, direction.out, on_box, result);
-    std::uint32_t low = 0;
-    for (int i = 0; i < 3; ++i) low |= direction.out[i] < 0 ? 1u << i : 0u;
     const std::uint32_t bit = 1u << direction.axis;
-    set_box_corners(direction.of_side ? bit : 7u & ~bit, low, result.corners);
-    set_segment_corners(part, result.corners);
+    found.part_a = {low, direction.of_side ? 7u ^ bit : bit};
+    set_result(box, segment, direction.separation, direction.out, on_box, part, found);
     return true;
 }
 
 }  // namespace
 
-bool box_point(const Convex<3>& box, const Convex<3>& point, SignedDistance<3>& result) {
-    BoxClosestPoint place;
-    const DVec<3> center = core_corner(point, 0), half(box.own[0]), seen = seen_from(box, point, 0);
-    const bool outside = nearest_from_outside(lanes::double3(half), lanes::double3(seen), place);
-    if (!outside) nearest_from_inside(half, seen, place);
-    const double distance = place.distance[0];
-    const DVec<3> offset = box.place.vector(lanes::vector(place.offset));
-    result.distance = distance * box.scale - box.radius - point.radius;
-    result.normal = offset * place.per_length[0] / box.scale;
-    result.on_a = center - (outside ? offset : offset * distance) + result.normal * box.radius;
-    set_box_corners(place.fixed, place.low, result.corners);
-    return true;
-}
-
-bool box_segment(const Convex<3>& box, const Convex<3>& segment, SignedDistance<3>& result) {
-    SeenSegment s{DVec<3>(box.own[0]), seen_from(box, segment, 0), seen_from(box, segment, 1), {}, 0};
-    s.along = s.to - s.from;
-    s.scale = std::max({largest(s.half), largest(s.from), largest(s.to)});
+bool distance_of(const PlacedBox& box, const PlacedSegment& segment, CoresDistance& found) {
+    const SeenSegment s(box, segment);
+    const DVec<3> sum = s.half + s.from + s.to;
+    if (!std::isfinite(sum.x + sum.y + sum.z)) return false;
     const double part = nearest_part(s);
     const DVec<3> on_segment = s.at(part), on_box = within(s.half, on_segment), between = on_segment - on_box;
     const double gap = length(between);
-    if (!(gap > min_box_gap * s.scale)) return deep_in_box(box, segment, s, gap, result);
+    if (!(gap > min_box_gap * s.scale)) return deep_in_box(box, segment, s, gap, found);
 
     const DVec<3> normal = between * (1 / gap);
     double beyond = std::min(dot(normal, s.from), dot(normal, s.to));
     for (int i = 0; i < 3; ++i) beyond -= std::abs(normal[i]) * s.half[i];
     if (!(gap - beyond <= round3_tolerance * s.scale)) return false;
-    set_result(box, segment, gap, normal, on_box, result);
-    std::uint32_t fixed = 0, low = 0;
+    found.part_a = {};
     for (int i = 0; i < 3; ++i) {
-        fixed |= between[i] != 0 ? 1u << i : 0u;
-        low |= between[i] < 0 ? 1u << i : 0u;
+        found.part_a.free |= between[i] == 0 ? 1u << i : 0u;
+        found.part_a.low |= between[i] < 0 ? 1u << i : 0u;
     }
-    set_box_corners(fixed, low, result.corners);
-    set_segment_corners(part, result.corners);
+    set_result(box, segment, gap, normal, on_box, part, found);
     return true;
+}
+
+bool is_beyond_a_face(const PlacedBox& box, const PlacedSegment& segment, double within) {
+    using namespace lanes;
+    const Double2 half = double2(0.5);
+    const Double3 middle = box.axes.transposed((segment.from + segment.to) * half - box.center);
+    const Double3 reach = magnitude(box.axes.transposed(segment.to - segment.from)) * half + box.half;
+    const Double3 far = magnitude(middle), gap = far - reach, sizes = far + reach;
+    const Double2 rounding = (sizes.xy + swapped(sizes.xy) + sizes.z) * double2(1e-12);
+    const Double2 needed = double2(within) + (box.radius + segment.radius) + rounding;
+    // A NaN separates nothing.
+    return bits(greater(gap.xy, gap.z) > needed) != 0 && finite(rounding);
 }
 
 }  // namespace abut::detail

@@ -2,8 +2,6 @@
 // answer returns none, and GJK and EPA answer.
 
 #include <abut/convex/manifold/round_manifold.hpp>
-#include <abut/convex/pairs/box3.hpp>
-#include <abut/convex/pairs/box_triangle.hpp>
 #include <abut/convex/pairs/pair2.hpp>
 #include <abut/query/detail/closed_form/closed_form.hpp>
 #include <abut/query/detail/pair_dispatch.hpp>
@@ -35,90 +33,6 @@ bool any_distance_within(const Convex<D>& a, const Convex<D>& b, double reach, c
 
 }  // namespace
 
-// Two boxes, each with a ball around it or not. With a trace, the general algorithms run too, so that their steps are
-// recorded. Their answers agree.
-
-namespace {
-
-bool are_plain_boxes(const Convex<3>& a, const Convex<3>& b) {
-    return is_plain_box(a) && is_plain_box(b);
-}
-
-bool boxes_overlap(const Convex<3>& a, const Convex<3>& b, const SearchOptions<3>& options) {
-    const PlacedBox box_a = placed_box(a), box_b = placed_box(b);
-    if (options.trace != nullptr) {
-        record_axes(box_a, box_b, *options.trace);
-        convex_overlap(a, b, {.trace = options.trace});
-    }
-    const BoxAnswer answer = boxes_within(box_a, box_b, a.radius + b.radius, options.cache);
-    return answer == BoxAnswer::unknown ? convex_overlap(a, b, options) : answer == BoxAnswer::yes;
-}
-
-void boxes_distance(const Convex<3>& a, const Convex<3>& b, const SearchOptions<3>& options,
-                    SignedDistance<3>& result) {
-    const PlacedBox box_a = placed_box(a), box_b = placed_box(b);
-    if (options.trace != nullptr) {
-        record_axes(box_a, box_b, *options.trace);
-        signed_distance(a, b, {.trace = options.trace});
-    }
-    BoxesDistance boxes;
-    if (distance_of_boxes(box_a, box_b, options.cache, boxes) == BoxAnswer::unknown) {
-        result = signed_distance(a, b, options);
-        return;
-    }
-    result = boxes.distance;
-    set_corners(boxes.closest, result.corners);
-    if (a.radius == 0 && b.radius == 0) return;
-    result.distance -= a.radius + b.radius;
-    result.on_a += result.normal * a.radius;
-}
-
-bool boxes_contact(const Convex<3>& a, const Convex<3>& b, double reach, double margin, const SearchOptions<3>& options,
-                   PartContact<3>& contact) {
-    contact.manifold.count = 0;
-    if (a.radius > 0 || b.radius > 0 || options.trace != nullptr) {
-        boxes_distance(a, b, options, contact.distance);
-        if (options.trace != nullptr) manifold(a, b, contact.distance, margin, options.trace);
-        if (a.radius > 0 || b.radius > 0) return contact.distance.distance <= reach;
-    }
-    BoxesDistance boxes;
-    const BoxAnswer answer =
-        contact_of_boxes(placed_box(a), placed_box(b), reach, margin, options.cache, boxes, contact.manifold);
-    if (answer == BoxAnswer::yes) {
-        contact.distance = boxes.distance;
-        set_corners(boxes.closest, contact.distance.corners);
-    } else if (answer == BoxAnswer::unknown) {
-        contact.distance = signed_distance(a, b, options);
-        contact.manifold = manifold(a, b, contact.distance, margin);
-        return contact.distance.distance <= reach;
-    }
-    return answer == BoxAnswer::yes;
-}
-
-}  // namespace
-
-// A box and a triangle, in either order. With a trace, GJK runs, so that its steps can be shown.
-
-namespace {
-
-BoxTriangle triangle_overlap(const Convex<3>& a, const Convex<3>& b, const SearchOptions<3>& options) {
-    if (options.trace != nullptr) return BoxTriangle::unknown;
-    if (are_box_and_triangle(a, b)) return box_triangle_overlap(a, b);
-    return are_box_and_triangle(b, a) ? box_triangle_overlap(b, a) : BoxTriangle::unknown;
-}
-
-BoxTriangle triangle_distance(const Convex<3>& a, const Convex<3>& b, double reach, const SearchOptions<3>& options,
-                              SignedDistance<3>& result) {
-    if (options.trace != nullptr) return BoxTriangle::unknown;
-    if (are_box_and_triangle(a, b)) return box_triangle_distance(a, b, reach, result);
-    if (!are_box_and_triangle(b, a)) return BoxTriangle::unknown;
-    const BoxTriangle answer = box_triangle_distance(b, a, reach, result);
-    if (answer == BoxTriangle::overlapping) flip(result);
-    return answer;
-}
-
-}  // namespace
-
 // Fast paths of the plane have no steps to record. A trace receives the steps of GJK and EPA, and changes no answer.
 
 namespace {
@@ -143,12 +57,6 @@ bool part_overlaps(const Convex<2>& a, const Convex<2>& b, const SearchOptions<2
     if (options.trace != nullptr) any_overlap<2>(a, b, {nullptr, options.trace});
     return answer == PairAnswer2::within;
 }
-template <>
-bool part_overlaps(const Convex<3>& a, const Convex<3>& b, const SearchOptions<3>& options) {
-    if (are_plain_boxes(a, b)) return boxes_overlap(a, b, options);
-    const BoxTriangle answer = triangle_overlap(a, b, options);
-    return answer == BoxTriangle::unknown ? any_overlap(a, b, options) : answer == BoxTriangle::overlapping;
-}
 
 template <>
 SignedDistance<2> part_distance(const Convex<2>& a, const Convex<2>& b, const SearchOptions<2>& options) {
@@ -160,16 +68,6 @@ SignedDistance<2> part_distance(const Convex<2>& a, const Convex<2>& b, const Se
         SignedDistance<2> searched;
         any_distance<2>(a, b, {nullptr, options.trace}, searched);
     }
-    return result;
-}
-template <>
-SignedDistance<3> part_distance(const Convex<3>& a, const Convex<3>& b, const SearchOptions<3>& options) {
-    SignedDistance<3> result;
-    constexpr double unlimited = std::numeric_limits<double>::infinity();
-    if (are_plain_boxes(a, b))
-        boxes_distance(a, b, options, result);
-    else if (triangle_distance(a, b, unlimited, options, result) == BoxTriangle::unknown)
-        any_distance(a, b, options, result);
     return result;
 }
 
@@ -187,15 +85,6 @@ bool part_distance_within(const Convex<2>& a, const Convex<2>& b, double reach, 
             add_points<2>(a, b, margin, {nullptr, options.trace}, searched);
     }
     return answer == PairAnswer2::within;
-}
-template <>
-bool part_distance_within(const Convex<3>& a, const Convex<3>& b, double reach, double margin,
-                          const SearchOptions<3>& options, PartContact<3>& contact) {
-    if (are_plain_boxes(a, b)) return boxes_contact(a, b, reach, margin, options, contact);
-    const BoxTriangle answer = triangle_distance(a, b, reach, options, contact.distance);
-    if (answer == BoxTriangle::unknown) return any_distance_within(a, b, reach, options, contact);
-    contact.manifold.count = 0;
-    return answer == BoxTriangle::overlapping && contact.distance.distance <= reach;
 }
 
 template <int D>

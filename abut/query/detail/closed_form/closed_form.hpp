@@ -5,6 +5,7 @@
 // pair_dispatch.hpp. For .cpp files.
 
 #include <abut/convex/gjk/signed_distance.hpp>
+#include <abut/convex/pairs/pair_answer.hpp>
 #include <abut/query/closest.hpp>
 #include <abut/query/contact.hpp>
 #include <abut/query/hit.hpp>
@@ -14,7 +15,7 @@
 
 namespace abut::detail {
 
-enum class ClosedFormAnswer : std::uint8_t { no, yes, unknown };
+using ClosedFormAnswer = PairAnswer;
 
 ClosedFormAnswer closed_form_overlap(const ShapeRef<2>& a, const ShapeRef<2>& b, Cache* cache);
 ClosedFormAnswer closed_form_overlap(const ShapeRef<3>& a, const ShapeRef<3>& b, Cache* cache);

@@ -1,6 +1,6 @@
 #include <abut/convex/features.hpp>
-#include <abut/convex/pairs/round3.hpp>
 #include <abut/query/detail/closed_form/closed_form.hpp>
+#include <abut/query/detail/closed_form/core_pairs3.hpp>
 
 namespace abut::detail {
 namespace {
@@ -58,24 +58,36 @@ bool polytope_point(const Convex<D>& a, const Convex<D>& b, SignedDistance<D>& r
     return true;
 }
 
+bool segment_segment(const Convex<2>& a, const Convex<2>& b, SignedDistance<2>& result) {
+    const DVec<2> origin = core_corner(a, 0);
+    SegmentsClosest<2> closest;
+    if (!closest_on_segments(core_corner(a, 1) - origin, core_corner(b, 0) - origin, core_corner(b, 1) - origin,
+                             closest))
+        return false;
+    result.distance = closest.gap - a.radius - b.radius;
+    result.normal = closest.normal;
+    result.on_a = origin + closest.on_a + closest.normal * a.radius;
+    const auto name_ends = [](double part, CornerIndices<2>& corners) {
+        corners[0] = part >= 1 ? 1 : 0;
+        corners[1] = part > 0 ? 1 : 0;
+    };
+    name_ends(closest.places.on_a, result.corners.a);
+    name_ends(closest.places.on_b, result.corners.b);
+    result.corners.count = 2;
+    return true;
+}
+
 bool distance_from(const Convex<2>& a, const Convex<2>& b, SignedDistance<2>& result) {
     if (is_round_points(b, 1)) return polytope_point(a, b, result);
     return is_round_points(a, 2) && is_round_points(b, 2) && segment_segment(a, b, result);
 }
 
-/// A is at least as complex as B.
+/// Of a triangle or a polyhedron.
 bool distance_from(const Convex<3>& a, const Convex<3>& b, SignedDistance<3>& result) {
-    if (is_round_points(b, 1)) {
-        if (is_round_points(a, 1)) return point_point(a, b, result);
-        if (is_round_points(a, 2)) return segment_point(a, b, result);
-        if (is_plain_box(a)) return box_point(a, b, result);
-        if (is_plain_hull(a)) return hull_point(a, b, result);
-        return (is_round_points(a, 3) && triangle_point(a, b, result)) || polytope_point(a, b, result);
-    }
-    if (!is_round_points(b, 2)) return false;
-    if (is_round_points(a, 2)) return segment_segment(a, b, result);
-    if (is_round_points(a, 3)) return triangle_segment(a, b, result);
-    return is_plain_box(a) && box_segment(a, b, result);
+    if (is_round_points(b, 2)) return is_round_points(a, 3) && triangle_segment(a, b, result);
+    if (!is_round_points(b, 1)) return false;
+    if (is_plain_hull(a)) return hull_point(a, b, result);
+    return (is_round_points(a, 3) && triangle_point(a, b, result)) || polytope_point(a, b, result);
 }
 
 /// The complexity of a core: B is to be the simpler one of a pair.
@@ -88,6 +100,13 @@ std::uint32_t complexity(const Convex<D>& convex) {
 
 template <int D>
 bool closed_form_distance(const Convex<D>& a, const Convex<D>& b, SignedDistance<D>& result) {
+    if constexpr (D == 3) {
+        CoresDistance found;
+        if (distance_of_cores(a, b, nullptr, found)) {
+            set_distance(found, result);
+            return true;
+        }
+    }
     if (complexity(b) <= complexity(a)) return distance_from(a, b, result);
     if (!distance_from(b, a, result)) return false;
     flip(result);
