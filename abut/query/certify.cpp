@@ -3,6 +3,11 @@
 #include <abut/query/detail/part_pairs.hpp>
 #include <abut/query/detail/sdf/function_pairs.hpp>
 #include <abut/query/detail/sdf/placed_function.hpp>
+#include <abut/query/detail/solid/solid_queries.hpp>
+#include <abut/query/detail/solid/solid_surface.hpp>
+#include <abut/query/overlaps.hpp>
+
+#include <optional>
 
 namespace abut {
 
@@ -178,11 +183,74 @@ Certificate<D> certificate_by_search(const Part<D>& a, const Part<D>& b, const C
     return result;
 }
 
+// For a solid the whole shapes are tested, not the parts that the answer names.
+
+/// How far a point is from a shape's surface if it `is_surface`, or outside of the shape.
+double off_shape(const View<3>& shape, const Vec3& point, bool is_surface) {
+    const View<3> as_shape(view(Ball<3>{point, 0}));
+    const double distance = static_cast<double>(closest(is_surface ? surface_view(shape) : shape, as_shape).distance);
+    return is_surface ? std::abs(distance) : std::max(0.0, distance);
+}
+
+/// A point in which the surfaces meet, or one of the surface of the shape that is inside the other.
+std::optional<DVec<3>> common_point_of_solids(const View<3>& a, const View<3>& b) {
+    std::optional<DVec<3>> common;
+    for_each_part_pair(surface_view(a), surface_view(b), 0,
+                       [&](const Part<3>& part_a, std::uint32_t, const Part<3>& part_b, std::uint32_t) {
+                           if (part_overlaps<3>(part_a, part_b, SearchOptions<3>{}))
+                               common = common_point(part_a, part_b);
+                           return !common;
+                       });
+    for (const bool of_a : {true, false}) {
+        const View<3>&inner = of_a ? a : b, &outer = of_a ? b : a;
+        for_each_part(surface_view(inner), bounds(outer), [&](const Part<3>& part, std::uint32_t) {
+            const DVec<3> point = core_support(part.convex(), axis<3>(0)).position;
+            if (!common && off_shape(outer, to_float(point), false) == 0) common = point;
+            return !common;
+        });
+    }
+    return common;
+}
+
+/// The distance after B has moved out, which should be 0.
+double distance_after_move(const View<3>& a, const View<3>& b, const Closest<3>& answer) {
+    Affine<3> move;
+    move.offset = DVec<3>(answer.normal) * -static_cast<double>(answer.distance);
+    return static_cast<double>(closest(a, moved(b, move)).distance);
+}
+
+Certificate<3> certificate_of_overlap(const View<3>& a, const View<3>& b, const Closest<3>& answer) {
+    Certificate<3> result;
+    result.margin = solid_tolerance(a, b);
+    const double distance = static_cast<double>(answer.distance);
+    result.plane = std::abs(distance_after_move(a, b, answer));
+    if (distance < -result.margin && !(closest(a, b).distance < 0)) result.plane = -distance;
+    result.off_a = off_shape(a, answer.on_a, true);
+    result.off_b = off_shape(b, answer.on_b, true);
+    const DVec<3> on_a(answer.on_a), on_b(answer.on_b);
+    result.across = length(on_b - on_a - normalized(DVec<3>(answer.normal)) * distance);
+    const std::optional<DVec<3>> common = common_point_of_solids(a, b);
+    result.common = to_float(common.value_or(on_a));
+    result.off_common = std::max(off_shape(a, result.common, false), off_shape(b, result.common, false));
+    const double rounding = rounding_of(answer.on_a) + rounding_of(answer.on_b) + rounding_of(result.common);
+    const double worst = std::max({result.plane, result.off_a, result.off_b, result.across, result.off_common});
+    result.holds = std::abs(length(DVec<3>(answer.normal)) - 1) <= 1e-6 && worst <= result.margin + 2 * rounding;
+    return result;
+}
+
 }  // namespace
 
 template <int D>
 Certificate<D> certify(const View<D>& a, const View<D>& b, const Closest<D>& answer) {
     Certificate<D> result;
+    if constexpr (D == 3)
+        if (has_solid(a, b)) {
+            if (answer.distance <= 0) return certificate_of_overlap(a, b, answer);
+            if (overlaps(a, b)) {
+                result.plane = static_cast<double>(answer.distance);
+                return result;
+            }
+        }
     with_part_of_number(a, answer.feature_a.part, [&](const Part<D>& part_a) {
         with_part_of_number(b, answer.feature_b.part, [&](const Part<D>& part_b) {
             if (part_a.is_half_space() && part_b.is_half_space()) return;

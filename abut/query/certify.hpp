@@ -30,7 +30,7 @@ Certificate<D> certify(const View<D>& a, const View<D>& b, const Closest<D>& ans
 /// the answer. If they overlap, it proves the overlap and that the depth is a separating move; it doesn't check that no
 /// smaller move exists. Beside a distance function it proves the value of the function at the place that the answer
 /// names, and searches once more for a lower one. Of composite shapes it checks the two parts that the answer names and
-/// no others.
+/// no others; of solids that overlap, the whole solids.
 template <class A, class B>
 requires Pair<A, B> Certificate<dimension<A>> certify(const A& a, const B& b, const Closest<dimension<A>>& answer) {
     constexpr int D = dimension<A>;

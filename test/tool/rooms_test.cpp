@@ -5,10 +5,15 @@
 #include "scene_of.hpp"
 #include "tool/check/check.hpp"
 #include "tool/objects/scene_objects.hpp"
+#include "tool_runs.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstdio>
 #include <map>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
@@ -93,6 +98,68 @@ TEST(Rooms, ExactlyTheOverlapsAreFound) {
             }
     }
     EXPECT_GT(overlapping, 10 * rooms);
+}
+
+class RoomFiles : public test::ToolRuns {};
+
+/// The room as a binary glTF file, with coordinates that are read back exactly.
+std::string file_of(const Room& room) {
+    test::GltfBuilder file;
+    std::vector<int> meshes;
+    for (const scenes::KitPiece& piece : room.pieces)
+        meshes.push_back(file.add_mesh(piece.name, test::Triangles{piece.points, piece.triangles}));
+    std::string nodes;
+    for (std::size_t i = 0; i < room.placements.size(); ++i) {
+        const scenes::KitPlacement& placement = room.placements[i];
+        const Vec3& at = placement.position;
+        std::array<char, 128> place;
+        std::snprintf(place.data(), place.size(), ",\"mesh\":%d,\"translation\":[%.17g,%.17g,%.17g]",
+                      meshes[placement.piece], static_cast<double>(at.x), static_cast<double>(at.y),
+                      static_cast<double>(at.z));
+        file.add_node(std::to_string(100 + i), place.data());
+        nodes += (i == 0 ? "" : ",") + std::to_string(i);
+    }
+    file.add_text(",\"scenes\":[{\"nodes\":[" + nodes + "]}],\"scene\":0");
+    return file.glb();
+}
+
+TEST_F(RoomFiles, TheToolTellsExactlyTheOverlaps) {
+    const int rooms = oracle::is_long() ? 60 : 6;
+    std::size_t overlapping = 0, touching = 0;
+    for (int room_number = 0; room_number < rooms; ++room_number) {
+        const std::uint64_t seed = 900 + static_cast<std::uint64_t>(room_number);
+        SCOPED_TRACE(seed);
+        const Room room(seed);
+        const std::string file = write("room.glb", file_of(room)).string();
+        const test::Json report = checked({file, "--allow", "0"}, 1);
+        ASSERT_EQ(report.at("objects"), room.placements.size());
+        std::map<std::pair<std::size_t, std::size_t>, double> found;
+        for (const test::Json& contact : report.at("contacts")) {
+            const auto number = [&](const char* key) { return std::stoul(contact.at(key).get<std::string>()) - 100; };
+            found[std::minmax({number("a"), number("b")})] = -contact.at("distance").get<double>();
+        }
+        std::size_t expected = 0;
+        for (std::size_t i = 0; i < room.placements.size(); ++i)
+            for (std::size_t j = i + 1; j < room.placements.size(); ++j) {
+                const auto reported = found.find({i, j});
+                // Convex shapes are right to within the tolerance of distances.
+                const double tolerance = room.are_convex(i, j) ? 5e-5 : 0;
+                if (room.overlap(i, j)) {
+                    ++expected;
+                    ASSERT_TRUE(reported != found.end()) << i << " " << j;
+                    EXPECT_LE(reported->second, room.box_depth(i, j) * (1 + 1e-6) + 1e-7 + tolerance) << i << " " << j;
+                } else if (reported != found.end()) {
+                    EXPECT_LE(reported->second, tolerance) << i << " " << j;
+                    found.erase(reported);
+                } else if (room.box_depth(i, j) >= 0) {
+                    ++touching;
+                }
+            }
+        EXPECT_EQ(found.size(), expected);
+        overlapping += expected;
+    }
+    EXPECT_GT(overlapping, 10u * static_cast<std::size_t>(rooms));
+    EXPECT_GT(touching, 10u * static_cast<std::size_t>(rooms));
 }
 
 TEST(Rooms, FlushTPrismsAreFound) {

@@ -1,13 +1,17 @@
 // The depth of solids: a move that parts them, seldom longer than the least one.
 
+#include "../../../scenes/bumpy_ball.hpp"
 #include "../../oracle/is_long.hpp"
 #include "../../shape/meshes.hpp"
 #include "solid_pairs.hpp"
+#include <abut/query/certify.hpp>
 #include <abut/query/closest.hpp>
 #include <abut/query/contact.hpp>
 #include <abut/query/detail/solid/interior_overlap.hpp>
 #include <abut/query/each_contact.hpp>
 #include <abut/shape/any_shape.hpp>
+#include <abut/shape/box.hpp>
+#include <abut/shape/capsule.hpp>
 #include <abut/shape/polyhedron.hpp>
 #include <abut/world/world.hpp>
 
@@ -190,6 +194,45 @@ TEST(SolidDepth, OfTurnedSolidsParts) {
     EXPECT_LE(differ, 0.03 * overlapping) << "swapped, where the search isn't the least";
 }
 
+TEST(SolidCertificate, HoldsForEveryAnswer) {
+    constexpr std::uint64_t seed = 20266;
+    SCOPED_TRACE(seed);
+    oracle::Random random(seed);
+    const Kit kit;
+    int overlapping = 0, touching = 0;
+    for (int i = 0; i < 300; ++i) {
+        const KitPair pair(kit, random);
+        SCOPED_TRACE(pair.text(kit));
+        const auto a = placed(kit, pair.a);
+        const Pose3 pose{pair.b.position, random.chance(0.3) ? random.rotation<3>() : glm::quat(1, 0, 0, 0)};
+        const auto check = [&](const auto& b) {
+            const Closest<3> nearest = closest(a, b);
+            const Certificate<3> found = certify(a, b, nearest);
+            ASSERT_TRUE(found) << "distance " << nearest.distance << " margin " << found.margin << " plane "
+                               << found.plane << " off " << found.off_a << " and " << found.off_b << " across "
+                               << found.across << " common " << found.off_common;
+            Closest<3> wrong = nearest;
+            wrong.distance += nearest.distance > 0 ? 0.01f : -0.01f;
+            EXPECT_FALSE(certify(a, b, wrong));
+            wrong = nearest;
+            wrong.on_a += nearest.normal * 0.01f;
+            EXPECT_FALSE(certify(a, b, wrong));
+            if (nearest.distance < 0) {
+                ++overlapping;
+                wrong = nearest;
+                wrong.distance = 0.5f;
+                EXPECT_FALSE(certify(a, b, wrong)) << "said to be apart";
+            }
+            if (nearest.distance == 0) ++touching;
+        };
+        check(at(solid(kit.meshes[pair.b.piece]), pose));
+        check(Box3{pose.position, {0.25f, 0.5f, 0.75f}, pose.rotation});
+        check(Capsule3{pose.position, pose.position + Vec3(0, 1, 0), 0.25f});
+    }
+    EXPECT_GT(overlapping, 100);
+    EXPECT_GT(touching, 30);
+}
+
 TEST(SolidContact, IsOneManifold) {
     const Mesh floor = box_surface({0, 0, 0}, {8, 8, 1}).mesh(), crate = box_surface({0, 0, 0}, {1, 1, 1}).mesh();
     for (const float sunk : {0.0f, 0.125f}) {
@@ -310,6 +353,70 @@ TEST(MeshContact, OfOpenMeshesAgreesWithClosest) {
         }
     }
     EXPECT_GT(touching, 100);
+}
+
+/// A surface that isn't closed: a bumpy ball with holes, a sheet of waves, or triangles anywhere.
+Mesh open_mesh(oracle::Random& random) {
+    Surface surface;
+    const std::uint32_t kind = random.below(3);
+    if (kind == 0) {
+        const scenes::BumpyBall ball = scenes::bumpy_ball(6, 0.3, 0.05, random);
+        surface.points = ball.points;
+        for (const glm::uvec3& t : ball.triangles)
+            if (random.chance(0.8)) surface.triangles.push_back(t);
+    } else if (kind == 1) {
+        for (std::uint32_t i = 0; i < 36; ++i)
+            surface.points.emplace_back(0.4f * static_cast<float>(i % 6) - 1, random.uniform_float(-0.2f, 0.2f),
+                                        0.4f * static_cast<float>(i / 6) - 1);
+        for (std::uint32_t i = 0; i < 35; ++i) {
+            if (i % 6 == 5 || i >= 30) continue;
+            surface.triangles.emplace_back(i, i + 1, i + 7);
+            surface.triangles.emplace_back(i, i + 7, i + 6);
+        }
+    } else {
+        for (std::uint32_t i = 0; i < 30; ++i) {
+            surface.points.push_back(to_float(random.in_cube<3>()));
+            if (i % 3 == 2) surface.triangles.emplace_back(i - 2, i - 1, i);
+        }
+    }
+    return surface.mesh();
+}
+
+TEST(MeshContact, OfRandomOpenMeshesPartsTheDeepestPair) {
+    constexpr std::uint64_t seed = 20273;
+    SCOPED_TRACE(seed);
+    oracle::Random random(seed);
+    const int pairs = oracle::is_long() ? 10'000 : 500;
+    int touching = 0, ties = 0;
+    for (int i = 0; i < pairs; ++i) {
+        SCOPED_TRACE(i);
+        const Mesh mesh_a = open_mesh(random), mesh_b = open_mesh(random);
+        const Pose3 pose{to_float(random.in_cube<3>() * 1.5), random.rotation<3>()};
+        const auto b = at(mesh_b, pose);
+        const Closest<3> nearest = closest(mesh_a, b);
+        const Contact<3> touch = contact(mesh_a, b);
+        ASSERT_EQ(static_cast<bool>(touch), nearest.distance <= 0);
+        if (!touch) continue;
+        ++touching;
+        ASSERT_NEAR(touch.depth, -nearest.distance, 2e-5);
+        if (glm::dot(touch.normal, nearest.normal) < 0.999f) ++ties;
+        // Both name a pair of triangles, and the move parts that pair. No other pair is deeper.
+        const auto depth_of = [&](const Feature& of_a, const Feature& of_b, const Vec3& move) {
+            return -closest(mesh_a.triangle(of_a.part),
+                            at(mesh_b.triangle(of_b.part), Pose3{pose.position + move, pose.rotation}))
+                        .distance;
+        };
+        EXPECT_NEAR(depth_of(touch.feature_a, touch.feature_b, Vec3(0)), touch.depth, 2e-5);
+        EXPECT_LE(depth_of(touch.feature_a, touch.feature_b, touch.normal * touch.depth), 2e-5);
+        EXPECT_LE(depth_of(nearest.feature_a, nearest.feature_b, nearest.normal * -nearest.distance), 2e-5);
+        float deepest = 0;
+        for (std::uint32_t x = 0; x < mesh_a.triangles().size(); ++x)
+            for (std::uint32_t y = 0; y < mesh_b.triangles().size(); ++y)
+                deepest = std::max(deepest, depth_of({x, 0, FeatureKind::face}, {y, 0, FeatureKind::face}, Vec3(0)));
+        EXPECT_NEAR(deepest, touch.depth, 2e-5);
+    }
+    EXPECT_GT(touching, pairs / 4);
+    EXPECT_LE(ties, touching / 100);
 }
 
 }  // namespace

@@ -4,6 +4,13 @@
 #include "../../oracle/simd_targets.hpp"
 #include "../hash.hpp"
 #include "solid_pairs.hpp"
+#include <abut/query/each_contact.hpp>
+#include <abut/query/sweep.hpp>
+#include <abut/shape/ball.hpp>
+#include <abut/shape/capsule.hpp>
+#include <abut/shape/cylinder.hpp>
+
+#include <optional>
 
 #include <gtest/gtest.h>
 
@@ -28,6 +35,16 @@ std::uint64_t hash_of_solids() {
         const Vec3 place = detail::to_float(random.direction<3>() * random.uniform(0.5, 1.8));
         add_closest(hash, closest(solid(ball), at(solid(ball), Pose3{place, random.rotation<3>()})));
         add_closest(hash, closest(solid(ball), Sphere{place, 0.25f}));
+        const Capsule3 capsule{place, place * 0.5f, 0.125f};
+        add_closest(hash, closest(capsule, solid(ball)));
+        add_closest(hash, closest(solid(ball), Cylinder{place, place * 0.25f, 0.25f}));
+        each_contact(solid(ball), capsule, [&](const Contact<3>& contact) { add_contact(hash, contact); });
+        const std::optional<Hit<3>> hits[]{raycast(Ray3::between(place * 0.25f, -place), solid(ball)),
+                                           sweep(capsule, place, solid(ball)), sweep(solid(ball), place, capsule)};
+        for (const std::optional<Hit<3>>& hit : hits) {
+            hash.add(hit ? hit->distance : -1.0f);
+            if (hit) hash.add<3>(hit->normal);
+        }
     }
     return hash.value();
 }

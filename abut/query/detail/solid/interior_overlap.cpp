@@ -165,10 +165,18 @@ bool overlap_at(const PlacedSolid& a, std::uint32_t index_a, const Corners& corn
 
 }  // namespace
 
-bool each_triangle_pair(const PlacedSolid& a, const PlacedSolid& b, float reach, TrianglePairVisitor visit) {
+bool each_triangle_pair(const PlacedSolid& a, const PlacedSolid& b, float reach, TrianglePairVisitor visit,
+                        const DVec<3>& direction) {
+    // Above this number of points it costs more than it saves.
+    constexpr std::uint32_t max_points = 4096;
+    const bool has_direction = direction != DVec<3>(0.0) && b.point_count() <= max_points;
+    const double lowest = has_direction ? b.lowest_along(direction) - static_cast<double>(reach) : 0;
     bool go_on = true;
     a.each_triangle(grown(b.box(), reach), [&](std::uint32_t index_a) {
         const Corners corners_a = a.corners(index_a);
+        if (has_direction && dot(direction, corners_a[0]) < lowest && dot(direction, corners_a[1]) < lowest &&
+            dot(direction, corners_a[2]) < lowest)
+            return true;
         const Aabb3 box_a = grown(box_of(corners_a), reach);
         if (!overlaps(box_a, b.box())) return true;
         b.each_triangle(box_a, [&](std::uint32_t index_b) {
@@ -186,12 +194,14 @@ bool has_component_inside(const PlacedSolid& inner, const PlacedSolid& outer) {
     return false;
 }
 
-bool interiors_overlap(const PlacedSolid& a, const PlacedSolid& b) {
+bool interiors_overlap(const PlacedSolid& a, const PlacedSolid& b, const DVec<3>& direction) {
     if (!overlaps(a.box(), b.box())) return false;
     const bool finds_none = each_triangle_pair(
-        a, b, 0, [&](std::uint32_t index_a, const Corners& corners_a, std::uint32_t index_b, const Corners& corners_b) {
+        a, b, 0,
+        [&](std::uint32_t index_a, const Corners& corners_a, std::uint32_t index_b, const Corners& corners_b) {
             return !overlap_at(a, index_a, corners_a, b, index_b, corners_b);
-        });
+        },
+        direction);
     return !finds_none || has_component_inside(a, b) || has_component_inside(b, a);
 }
 

@@ -18,16 +18,18 @@
 
 namespace abut::detail {
 
-/// Touching solids share no inner point, however large the area is in which they touch.
-bool interiors_overlap(const PlacedSolid& a, const PlacedSolid& b);
+/// Touching solids share no inner point, however large the area is in which they touch. A direction in which B lies
+/// mostly beyond A makes it faster.
+bool interiors_overlap(const PlacedSolid& a, const PlacedSolid& b, const DVec<3>& direction = DVec<3>(0.0));
 
 /// Whether a connected component of the surface of one solid is inside the other.
 bool has_component_inside(const PlacedSolid& inner, const PlacedSolid& outer);
 
-/// Visits the pairs of triangles whose boxes are at most `reach` apart, with their corners. Returns false if a visit
-/// did, which stops it.
+/// Visits the pairs of triangles whose boxes are at most `reach` apart, with their corners; with a direction, at least
+/// those of them that are as near along it. Returns false if a visit did, which stops it.
 using TrianglePairVisitor =
     FunctionRef<bool(std::uint32_t triangle_a, const Corners& a, std::uint32_t triangle_b, const Corners& b)>;
-bool each_triangle_pair(const PlacedSolid& a, const PlacedSolid& b, float reach, TrianglePairVisitor visit);
+bool each_triangle_pair(const PlacedSolid& a, const PlacedSolid& b, float reach, TrianglePairVisitor visit,
+                        const DVec<3>& direction = DVec<3>(0.0));
 
 }  // namespace abut::detail

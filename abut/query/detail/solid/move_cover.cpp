@@ -47,15 +47,6 @@ std::size_t find_inner_balls(const View<3>& shape, const PlacedSolid& solid, std
     return count;
 }
 
-/// Where a line from 0 along a direction leaves a ball, if it is inside at a distance; else that distance.
-double end_in_ball(const DVec<3>& center, double radius, const DVec<3>& direction, double distance) {
-    const double along = dot(center, direction);
-    const double half_squared = radius * radius - (length_squared(center) - along * along);
-    if (half_squared <= 0) return distance;
-    const double half = std::sqrt(half_squared);
-    return along - half < distance ? std::max(along + half, distance) : distance;
-}
-
 }  // namespace
 
 void MoveCover::add_balls(const View<3>& shape_a, const View<3>& shape_b) {
@@ -64,10 +55,24 @@ void MoveCover::add_balls(const View<3>& shape_a, const View<3>& shape_b) {
                       count_b = find_inner_balls(surface_view(shape_b), b_, inner_b);
     for (std::size_t i = 0; i < count_a; ++i)
         for (std::size_t j = 0; j < count_b; ++j) {
-            const Ball ball{inner_a[i].center - inner_b[j].center, inner_a[i].radius + inner_b[j].radius};
-            balls_[ball_count_++] = ball;
-            min_distance_ = std::max(min_distance_, ball.radius - length(ball.center));
+            const DVec<3> center = inner_a[i].center - inner_b[j].center;
+            const double radius = inner_a[i].radius + inner_b[j].radius;
+            if (is_in_ball(center, radius)) continue;
+            x_[ball_count_] = center.x;
+            y_[ball_count_] = center.y;
+            z_[ball_count_] = center.z;
+            radius_[ball_count_] = radius;
+            beyond_[ball_count_++] = length_squared(center) - radius * radius;
+            min_distance_ = std::max(min_distance_, radius - length(center));
         }
+}
+
+bool MoveCover::is_in_ball(const DVec<3>& middle, double radius) const {
+    for (std::size_t i = 0; i < ball_count_; ++i) {
+        const double between = radius_[i] - radius;
+        if (between >= 0 && length_squared(middle - center(i)) <= between * between) return true;
+    }
+    return false;
 }
 
 void MoveCover::add_pair(std::uint32_t triangle_a, std::uint32_t triangle_b) {
@@ -84,23 +89,56 @@ void MoveCover::add_pair(std::uint32_t triangle_a, std::uint32_t triangle_b) {
     pair_count_ = std::min(pair_count_ + 1, max_pairs);
 }
 
-void MoveCover::leave(const DVec<3>& direction, double step, double limit, double& distance, DVec<3>& normal) const {
+bool MoveCover::has_ball_along(const DVec<3>& direction, double limit) {
+    if (limit != limit_of_caps_) {
+        limit_of_caps_ = limit;
+        cap_count_ = 0;
+        for (std::size_t i = 0; i < ball_count_; ++i) {
+            const double beyond = beyond_[i];
+            if (beyond < 0)
+                caps_[cap_count_++] = {static_cast<std::uint32_t>(i), (limit * limit + beyond) / (2 * limit)};
+        }
+    }
+    for (std::size_t i = 0; i < cap_count_; ++i) {
+        if (!(dot(direction, center(caps_[i].ball)) > caps_[i].min_along)) continue;
+        // Neighbouring directions are in one ball.
+        std::swap(caps_[i], caps_[i / 2]);
+        return true;
+    }
+    return false;
+}
+
+void MoveCover::set_spans(const DVec<3>& direction) {
+    for (std::size_t i = 0; i < ball_count_; ++i) {
+        const double along = x_[i] * direction.x + y_[i] * direction.y + z_[i] * direction.z;
+        const double half = std::sqrt(std::max(0.0, along * along - beyond_[i]));
+        from_[i] = along - half;
+        to_[i] = along + half;
+    }
+}
+
+double MoveCover::end_of_balls(double from, double step) const {
+    for (double end = from;;) {
+        double farther = end;
+        for (std::size_t i = 0; i < ball_count_; ++i) farther = std::max(farther, from_[i] < end ? to_[i] : end);
+        if (!(farther > end + step)) return farther;
+        end = farther;
+    }
+}
+
+void MoveCover::leave(const DVec<3>& direction, double step, double limit, double& distance, DVec<3>& normal) {
+    if (distance == 0) set_spans(direction);
     for (bool goes_on = true; goes_on && distance < limit;) {
         goes_on = false;
-        for (std::size_t i = 0; i < ball_count_; ++i) {
-            const double end = end_in_ball(balls_[i].center, balls_[i].radius, direction, distance);
-            if (!(end > distance + step)) continue;
-            distance = end;
-            normal = DVec<3>(0.0);
-            goes_on = true;
-        }
+        const double end = end_of_balls(distance, step);
+        if (end > distance) normal = DVec<3>(0.0);
+        distance = end;
         for (std::size_t i = 0; i < pair_count_ && distance < limit; ++i) {
             const Ball& around = around_pairs_[i];
             if (length_squared(direction * distance - around.center) >= around.radius * around.radius) continue;
             SlideInterval slide;
-            if (!slide_interval(a_.corners(pairs_[i].a), b_.corners(pairs_[i].b), direction, slide)) continue;
-            const bool is_inside = slide.from < distance - step || (distance == 0 && slide.from < 0);
-            if (!is_inside || slide.to <= distance + 2 * step) continue;
+            const SlideRange range{distance == 0 ? 0 : distance - step, distance + 2 * step};
+            if (!slide_interval(a_.corners(pairs_[i].a), b_.corners(pairs_[i].b), direction, range, slide)) continue;
             distance = slide.to;
             normal = slide.exit_normal;
             goes_on = true;
@@ -109,9 +147,10 @@ void MoveCover::leave(const DVec<3>& direction, double step, double limit, doubl
 }
 
 bool MoveCover::has_ball_at(const DVec<3>& move) const {
-    return std::any_of(
-        balls_.begin(), balls_.begin() + static_cast<std::ptrdiff_t>(ball_count_),
-        [&](const Ball& ball) { return length_squared(move - ball.center) < ball.radius * ball.radius; });
+    const double squared = length_squared(move);
+    for (std::size_t i = 0; i < ball_count_; ++i)
+        if (squared - 2 * (x_[i] * move.x + y_[i] * move.y + z_[i] * move.z) + beyond_[i] < 0) return true;
+    return false;
 }
 
 }  // namespace abut::detail

@@ -23,9 +23,12 @@ public:
     /// No shorter move parts the solids.
     double min_distance() const { return min_distance_; }
 
+    /// Whether a ball contains the moves along a direction up to the limit, which seldom changes. Quick.
+    bool has_ball_along(const DVec<3>& direction, double limit);
+
     /// Goes on along a direction as long as a set contains the move, at least by `step`, or up to the limit. Sets the
     /// normal of the last plane.
-    void leave(const DVec<3>& direction, double step, double limit, double& distance, DVec<3>& normal) const;
+    void leave(const DVec<3>& direction, double step, double limit, double& distance, DVec<3>& normal);
     /// Whether a set contains the move.
     bool has_ball_at(const DVec<3>& move) const;
 
@@ -39,12 +42,31 @@ private:
         std::uint32_t a, b;
     };
 
-    static constexpr std::size_t max_inner = 20;  ///< balls inside of each solid
+    static constexpr std::size_t max_inner = 24;  ///< balls inside of each solid
     static constexpr std::size_t max_pairs = 256;
 
+    static constexpr std::size_t max_balls = max_inner * max_inner;
+
+    bool is_in_ball(const DVec<3>& middle, double radius) const;
+    DVec<3> center(std::size_t ball) const { return {x_[ball], y_[ball], z_[ball]}; }
+    /// Sets the spans in which the balls contain moves along a direction.
+    void set_spans(const DVec<3>& direction);
+    double end_of_balls(double from, double step) const;
+
+    /// A ball contains 0 and `limit * d` where dot(d, center) > min_along.
+    struct Cap {
+        std::uint32_t ball = 0;
+        double min_along = 0;
+    };
+
     const PlacedSolid &a_, &b_;
-    std::array<Ball, max_inner * max_inner> balls_;
+    // Balls: the centres, the radii, and the squared distances of 0 from the centres, less the squared radii.
+    std::array<double, max_balls> x_, y_, z_, radius_, beyond_;
     std::size_t ball_count_ = 0;
+    std::array<double, max_balls> from_, to_;  ///< the spans; empty for a ball that the line misses
+    std::array<Cap, max_balls> caps_;
+    std::size_t cap_count_ = 0;
+    double limit_of_caps_ = 0;
     std::array<Ball, max_pairs> around_pairs_;
     std::array<TrianglePair, max_pairs> pairs_;
     std::size_t pair_count_ = 0, next_pair_ = 0;

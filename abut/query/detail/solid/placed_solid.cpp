@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace abut::detail {
 namespace {
@@ -111,6 +112,15 @@ PlacedSolid PlacedSolid::moved(const DVec<3>& translation) const {
     result.to_local_.offset = -to_local_.vector(result.place_.offset);
     result.box_ = mapped_box(surface_.box(), result.place_);
     return result;
+}
+
+double PlacedSolid::lowest_along(const DVec<3>& direction) const {
+    const DVec<3> local = place_.transposed(direction);
+    double lowest = std::numeric_limits<double>::infinity();
+    for (std::uint32_t i = 0; i < point_count(); ++i)
+        lowest = std::min(lowest, dot(local, DVec<3>(surface_.position(i))));
+    return lowest + dot(direction, place_.offset) -
+           1e-12 * std::max(largest(DVec<3>(box_.min)), largest(DVec<3>(box_.max)));
 }
 
 void PlacedSolid::each_triangle(const Aabb3& box, FunctionRef<bool(std::uint32_t triangle)> visit) const {

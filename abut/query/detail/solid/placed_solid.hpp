@@ -76,6 +76,9 @@ public:
         return flipped_ ? Corners{point(t[0]), point(t[2]), point(t[1])}
                         : Corners{point(t[0]), point(t[1]), point(t[2])};
     }
+    std::uint32_t point_count() const { return surface_.point_count(); }
+    /// The smallest dot(direction, p) over the points, less what may be rounding.
+    double lowest_along(const DVec<3>& direction) const;
     /// The index of a corner's point.
     std::uint32_t point_index(std::uint32_t triangle, std::size_t corner) const {
         const std::size_t own = flipped_ && corner > 0 ? 3 - corner : corner;

@@ -66,24 +66,32 @@ public:
         leave_box();
         for (int i = 0; i < 3; ++i)
             for (const double sign : {1.0, -1.0}) try_direction(axis<3>(i, sign));
+        each_face_direction([&](const DVec<3>& direction) {
+            try_direction(direction);
+            return !is_least();
+        });
+        if (!is_least()) search_meets();
+        return best_;
+    }
+
+private:
+    /// Visits the normals of the faces, and the opposite directions; false stops.
+    template <class Visit>
+    void each_face_direction(const Visit& visit) {
         for (const bool of_a : {true, false}) {
             const PlacedSolid& solid = of_a ? a_ : b_;
-            for (std::uint32_t i = 0; i < solid.triangle_count() && !is_least(); ++i) {
+            for (std::uint32_t i = 0; i < solid.triangle_count(); ++i) {
                 const Corners t = solid.corners(i);
                 const DVec<3> normal = cross(t[1] - t[0], t[2] - t[0]);
                 const double size = length(normal);
                 if (!(size > 0)) continue;
                 // B leaves A by the front of A's faces; A leaves B by the front of B's.
                 const DVec<3> direction = normal / (of_a ? size : -size);
-                try_direction(direction);
-                try_direction(-direction);
+                if (!visit(direction) || !visit(-direction)) return;
             }
         }
-        if (!is_least()) search_meets();
-        return best_;
     }
 
-private:
     struct Exit {
         double distance = unlimited_move;
         DVec<3> normal{0.0};  ///< of the last plane
@@ -94,7 +102,7 @@ private:
     bool is_least() const { return best_distance_ <= cover_.min_distance() * (1 + 1e-5); }
 
     bool parts(const DVec<3>& move) const {
-        return !cover_.has_ball_at(move) && !interiors_overlap(a_, b_.moved(move));
+        return !cover_.has_ball_at(move) && !interiors_overlap(a_, b_.moved(move), move);
     }
 
     /// Takes a move that parts the solids in double, if it does so as floats too, or slightly longer.
@@ -129,7 +137,7 @@ private:
     void try_direction(DVec<3> direction) {
         // The plane through which a move leaves may be nearer along its own normal.
         for (int i = 0; i < 4; ++i) {
-            if (!tried_.add(direction)) return;
+            if (cover_.has_ball_along(direction, limit()) || !tried_.add(direction)) return;
             const Exit exit = exit_along(direction, limit());
             if (exit.distance >= limit()) return;
             take(direction, exit.distance);
@@ -181,16 +189,17 @@ private:
     Crossing crossing_at(const DVec<3>& direction, double distance, double limit) {
         Crossing result;
         int crossing_count = 0;
-        each_triangle_pair(a_, b_.moved(direction * distance), static_cast<float>(2 * step_),
-                           [&](std::uint32_t index_a, const Corners& a, std::uint32_t index_b, const Corners& b) {
-                               SlideInterval slide;
-                               if (!slide_interval(a, b, direction, slide)) return true;
-                               if (!(slide.from < step_ && slide.to > 2 * step_)) return true;
-                               if (slide.from < -step_) cover_.add_pair(index_a, index_b);
-                               if (!result.found || distance + slide.to > result.to)
-                                   result = {true, distance + slide.from, distance + slide.to, slide.exit_normal};
-                               return result.to < limit && ++crossing_count < max_crossings;
-                           });
+        each_triangle_pair(
+            a_, b_.moved(direction * distance), static_cast<float>(2 * step_),
+            [&](std::uint32_t index_a, const Corners& a, std::uint32_t index_b, const Corners& b) {
+                SlideInterval slide;
+                if (!slide_interval(a, b, direction, {step_, 2 * step_}, slide)) return true;
+                if (slide.from < -step_) cover_.add_pair(index_a, index_b);
+                if (!result.found || distance + slide.to > result.to)
+                    result = {true, distance + slide.from, distance + slide.to, slide.exit_normal};
+                return result.to < limit && ++crossing_count < max_crossings;
+            },
+            direction);
         return result;
     }
 
@@ -211,7 +220,7 @@ private:
             const Corners a = a_.corners(index_a);
             moved.each_triangle(swept(box_of(a), -move), [&](std::uint32_t index_b) {
                 SlideInterval slide;
-                if (slide_interval(a, moved.corners(index_b), direction, slide) && slide.to > step_)
+                if (slide_interval(a, moved.corners(index_b), direction, {limit - distance, step_}, slide))
                     next = std::min(next, distance + std::max(slide.from, step_));
                 return true;
             });
@@ -223,7 +232,8 @@ private:
     /// Visits the planes to which B must move at least, so that some of the triangles part that cross after a move.
     void collect_planes(const DVec<3>& move, NearestPlanes& planes) const {
         each_triangle_pair(
-            a_, b_.moved(move), 0, [&](std::uint32_t, const Corners& a, std::uint32_t, const Corners& b) {
+            a_, b_.moved(move), 0,
+            [&](std::uint32_t, const Corners& a, std::uint32_t, const Corners& b) {
                 const auto add = [&](const Corners& face, double sign) {
                     const DVec<3> normal = normalized<3>(cross(face[1] - face[0], face[2] - face[0]) * sign);
                     double to = -unlimited_move, from = unlimited_move, back = from, front = to;
@@ -240,7 +250,8 @@ private:
                 add(a, 1);
                 add(b, -1);
                 return true;
-            });
+            },
+            move);
     }
 
     /// Moves to where planes meet, nearest first.
@@ -259,14 +270,19 @@ private:
     }
 
     bool take_meet(const MeetOfPlanes& meet) {
-        return meet.distance < limit() && parts(meet.move) && take(meet.move / meet.distance, meet.distance);
+        if (!(meet.distance < limit()) || !parts(meet.move)) return false;
+        const DVec<3> direction = meet.move / meet.distance;
+        if (!take(direction, meet.distance)) return false;
+        // The planes are those of triangles, which a part of the move may leave already.
+        try_direction(direction);
+        return true;
     }
 
-    static constexpr int max_crossings = 16;
+    static constexpr int max_crossings = 4;
 
     /// Coarser solids have so few directions that balls don't pay, and larger faces, whose planes meet in notches.
     static constexpr std::uint32_t min_fine_triangles = 256;
-    static constexpr int max_meets_if_fine = 12;
+    static constexpr int max_meets_if_fine = 4;
 
     PlacedSolid a_, b_;
     MoveCover cover_;

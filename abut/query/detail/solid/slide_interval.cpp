@@ -26,38 +26,42 @@ AxisRange range_along(const DVec<3>& axis, const Corners& t) {
 /// Intersects the intervals of the separating axes.
 class Slide {
 public:
-    Slide(const Corners& a, const Corners& b, const DVec<3>& direction) : a_(a), b_(b), direction_(direction) {}
+    Slide(const Corners& a, const Corners& b, const DVec<3>& direction, const SlideRange& range)
+        : a_(a), b_(b), direction_(direction), range_(range) {}
 
-    /// Returns false if no distance is left.
+    /// Returns false if no distance is left, or not the range.
     bool cut(const DVec<3>& axis) {
         const AxisRange a = range_along(axis, a_), b = range_along(axis, b_);
-        const double speed = dot(axis, direction_), size = length(axis);
-        if (std::abs(speed) <= 1e-13 * size) {
+        const double speed = dot(axis, direction_);
+        if (speed * speed <= 1e-26 * length_squared(axis)) {
             const double tolerance =
                 flush * std::max({std::abs(a.min), std::abs(a.max), std::abs(b.min), std::abs(b.max)});
             return b.min + tolerance < a.max && a.min + tolerance < b.max;
         }
-        const double sign = speed > 0 ? 1 : -1;
         const double to = (speed > 0 ? a.max - b.min : a.min - b.max) / speed;
         const double from = (speed > 0 ? a.min - b.max : a.max - b.min) / speed;
-        result.from = std::max(result.from, from);
-        if (to < result.to) {
-            result.to = to;
-            result.exit_normal = axis * (sign / size);
+        from_ = std::max(from_, from);
+        if (to < to_) {
+            to_ = to;
+            exit_axis_ = speed > 0 ? axis : -axis;
         }
-        return result.from < result.to;
+        return from_ < to_ && from_ < range_.from_before && to_ > range_.to_beyond;
     }
-
-    SlideInterval result{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(), {}};
+    SlideInterval interval() const { return {from_, to_, exit_axis_ / length(exit_axis_)}; }
+    bool ends() const { return to_ < std::numeric_limits<double>::infinity(); }
 
 private:
     const Corners &a_, &b_;
     const DVec<3>& direction_;
+    SlideRange range_;
+    double from_ = -std::numeric_limits<double>::infinity(), to_ = std::numeric_limits<double>::infinity();
+    DVec<3> exit_axis_{0.0};
 };
 
 }  // namespace
 
-bool slide_interval(const Corners& a_world, const Corners& b_world, const DVec<3>& direction, SlideInterval& interval) {
+bool slide_interval(const Corners& a_world, const Corners& b_world, const DVec<3>& direction, const SlideRange& range,
+                    SlideInterval& interval) {
     // Relative to a corner, so that rounding is that of the triangles' sizes.
     const DVec<3> origin = a_world[0];
     Corners a = a_world, b = b_world;
@@ -68,7 +72,7 @@ bool slide_interval(const Corners& a_world, const Corners& b_world, const DVec<3
     const std::array<DVec<3>, 3> edges_a{a[1] - a[0], a[2] - a[1], a[0] - a[2]},
         edges_b{b[1] - b[0], b[2] - b[1], b[0] - b[2]};
     const DVec<3> normal_a = cross(edges_a[0], edges_a[1]), normal_b = cross(edges_b[0], edges_b[1]);
-    Slide slide(a, b, direction);
+    Slide slide(a, b, direction, range);
     const double size_a = length(normal_a), size_b = length(normal_b);
     if (size_a == 0 || size_b == 0) return false;
     if (length(cross(normal_a, normal_b)) <= parallel * size_a * size_b) {
@@ -92,8 +96,9 @@ bool slide_interval(const Corners& a_world, const Corners& b_world, const DVec<3
                 if (!slide.cut(axis)) return false;
             }
     }
-    interval = slide.result;
-    return interval.to < std::numeric_limits<double>::infinity();
+    if (!slide.ends()) return false;
+    interval = slide.interval();
+    return true;
 }
 
 }  // namespace abut::detail

@@ -13,8 +13,14 @@ struct SlideInterval {
     DVec<3> exit_normal{0.0};
 };
 
-/// Returns false if the triangles cross at no distance. Triangles in one plane, which moves along itself, cross while
-/// they share an area and face the same direction: then both solids are behind it.
-bool slide_interval(const Corners& a, const Corners& b, const DVec<3>& direction, SlideInterval& interval);
+/// The intervals that are wanted: those that begin before one distance and end beyond another.
+struct SlideRange {
+    double from_before, to_beyond;
+};
+
+/// Returns false if the triangles cross at no distance, or outside of the range. Triangles in one plane, which moves
+/// along itself, cross while they share an area and face the same direction: then both solids are behind it.
+bool slide_interval(const Corners& a, const Corners& b, const DVec<3>& direction, const SlideRange& range,
+                    SlideInterval& interval);
 
 }  // namespace abut::detail

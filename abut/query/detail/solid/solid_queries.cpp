@@ -32,7 +32,17 @@ void flip(Contact<3>& contact) {
 void name_point(const View<3>& a, const View<3>& b, const DVec<3>& move, Closest<3>& closest) {
     const SolidContactArea area =
         contact_area(PlacedSolid(a), PlacedSolid(b), move, DVec<3>(closest.normal), solid_tolerance(a, b));
-    if (area.manifold.count == 0) return;
+    if (area.manifold.count == 0) {
+        // A move that is longer than the least one along its direction leaves a gap.
+        Affine<3> place;
+        place.offset = move;
+        const Closest<3> parted = abut::closest(surface_view(a), moved(surface_view(b), place));
+        closest.on_a = parted.on_a;
+        closest.on_b = to_float(DVec<3>(parted.on_b) - move);
+        closest.feature_a = parted.feature_a;
+        closest.feature_b = parted.feature_b;
+        return;
+    }
     closest.on_a = to_float(area.manifold.points[0].position);
     closest.on_b = to_float(area.manifold.points[0].position - move);
     closest.feature_a = area.feature_a;

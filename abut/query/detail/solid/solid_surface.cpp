@@ -97,6 +97,10 @@ Vec3 SolidSurface::position(std::uint32_t point) const {
             (point & 4u) != 0 ? -half_.z : half_.z};
 }
 
+std::uint32_t SolidSurface::point_count() const {
+    return mesh_ != nullptr ? static_cast<std::uint32_t>(mesh_->points.size()) : point_count_;
+}
+
 std::uint32_t SolidSurface::triangle_across(std::uint32_t from, std::uint32_t to) const {
     const auto wanted = std::pair(std::min(from, to), std::max(from, to));
     const auto edge = std::lower_bound(facets_->edges.begin(), facets_->edges.end(), wanted,

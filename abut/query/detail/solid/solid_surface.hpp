@@ -25,6 +25,7 @@ public:
     std::uint32_t triangle_count() const { return count_of_triangles(); }
     std::array<std::uint32_t, 3> triangle(std::uint32_t index) const;
     Vec3 position(std::uint32_t point) const;
+    std::uint32_t point_count() const;
     /// Like that of a mesh.
     std::uint32_t neighbour(std::uint32_t triangle, std::uint32_t side) const;
     /// Visits at least the triangles whose boxes overlap the box; false stops.
