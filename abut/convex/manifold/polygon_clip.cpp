@@ -41,7 +41,9 @@ bool clip_polygons(const PlacedPolygon& a, const PlacedPolygon& b, ClippedLoop& 
     const PolygonSoa &body = of == 0 ? a.sides : b.sides, &tool = of == 0 ? b.sides : a.sides;
     for (const PolygonSoa* sides : {&body, &tool})
         if (sides->count < 3 || !(sides->area() > min_area_ratio * sides->size() * sides->size())) return false;
-    const Rigid2 seen = rigid(CorePair<PolygonCore>(a, b).seen_from(of));
+    CorePair<PolygonCore> pair(a, b);
+    pair.set_relative_places();
+    const Rigid2 seen = rigid(pair.seen_from(of));
     const double tolerance =
         0x1p-47 * (std::abs(seen.x) + std::abs(seen.y) + 2 * (body.size() + tool.size()) + std::abs(body.x()[0]) +
                    std::abs(body.y()[0]) + std::abs(tool.x()[0]) + std::abs(tool.y()[0]));

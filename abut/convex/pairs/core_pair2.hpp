@@ -82,17 +82,21 @@ template <class Core>
 class CorePair {
 public:
     /// Both must outlive the pair.
-    CorePair(const PlacedPolygon& a, const PlacedPolygon& b) : shapes_{Core(a), Core(b)} {
-        between_ = b.place.position - a.place.position;
-        seen_[0].position = a.place.back(between_);
-        seen_[0].set_turn(a.place.back(b.place.turn()));
-        seen_[1].position = -b.place.back(between_);
-        seen_[1].cos = seen_[0].cos;
-        seen_[1].sin = -seen_[0].sin;
-        const Double2 place = lanes::magnitude(seen_[0].position);
+    CorePair(const PlacedPolygon& a, const PlacedPolygon& b)
+        : shapes_{Core(a), Core(b)}, between_(b.place.position - a.place.position) {
+        const Double2 place = lanes::magnitude(between_);
         scale_ = (place[0] + place[1]) + (shapes_[0].size() + shapes_[1].size());
     }
 
+    /// Places each shape relative to the other, for all that isn't answered by the cache.
+    void set_relative_places() {
+        const LanePose &a = shapes_[0].place(), &b = shapes_[1].place();
+        seen_[0].position = a.back(between_);
+        seen_[0].set_turn(a.back(b.turn()));
+        seen_[1].position = -b.back(between_);
+        seen_[1].cos = seen_[0].cos;
+        seen_[1].sin = -seen_[0].sin;
+    }
     const Core& shape(std::uint32_t of) const { return shapes_[of]; }
     /// The other shape relative to this one.
     const LanePose& seen_from(std::uint32_t of) const { return seen_[of]; }
@@ -101,12 +105,12 @@ public:
     double scale() const { return scale_; }
 
     /// The closest features, if the gap between the cores is at most `reach`.
-    [[gnu::always_inline]] inline PairAnswer2 find_closest(double reach, Cache* cache,
-                                                           ClosestFeatures2& closest) const {
+    [[gnu::always_inline]] inline PairAnswer2 find_closest(double reach, Cache* cache, ClosestFeatures2& closest) {
         const bool all = !is_finite(reach);
         if (cache != nullptr && (all ? closest_from_cache(*cache, closest) : separated_by_cache(*cache, reach)))
             return all ? PairAnswer2::within : PairAnswer2::beyond;
         if (!is_finite(scale_)) return PairAnswer2::unknown;
+        set_relative_places();
         EdgeGap widest;
         find_widest_gap(shapes_[0], shapes_[1], seen_, reach, 1e-14 * scale_, widest);
         if (widest.gap > reach) {
@@ -117,12 +121,13 @@ public:
     }
 
     /// Whether the gap between the cores is at most `reach`.
-    [[gnu::always_inline]] inline PairAnswer2 within(double reach, Cache* cache) const {
+    [[gnu::always_inline]] inline PairAnswer2 within(double reach, Cache* cache) {
         if (cache != nullptr && separated_by_cache(*cache, reach)) return PairAnswer2::beyond;
         // Bounding circles around the positions.
         const double far = reach + shapes_[0].outer_radius() + shapes_[1].outer_radius();
         if (!is_finite(scale_)) return PairAnswer2::unknown;
         if (lanes::dot(between_, between_)[0] > far * far) return PairAnswer2::beyond;
+        set_relative_places();
         EdgeGap widest;
         find_widest_gap(shapes_[0], shapes_[1], seen_, reach, 1e-14 * scale_, widest);
         if (widest.gap <= 0 || widest.gap > reach) {
@@ -147,7 +152,9 @@ private:
     /// From the edge with the widest gap: the other's lowest corner is in front of it, or past one of its ends.
     [[gnu::always_inline]] inline PairAnswer2 find_from_edge(const EdgeGap& widest, double reach, Cache* cache,
                                                              ClosestFeatures2& closest) const {
-        const EdgeRegion region = set_edge(widest.of, widest.side, widest.corner, closest);
+        const EdgeRegion region =
+            set_edge(widest.of, widest.side, widest.corner,
+                     seen_[widest.of].point(other_than(widest.of).corner(widest.corner)), closest);
         const bool found = region == EdgeRegion::within || (closest.gap > 0 ? find_corner(widest, region, closest)
                                                                             : find_behind_end(widest, region, closest));
         if (!found) return PairAnswer2::unknown;
@@ -155,12 +162,12 @@ private:
         return closest.gap > reach ? PairAnswer2::beyond : PairAnswer2::within;
     }
 
-    /// An edge of one shape and a corner of the other, and in which Voronoi region of the edge the corner is.
+    /// An edge of one shape and a corner of the other, and in which Voronoi region of the edge the corner is,
+    /// which has the place `local_corner` in the frame of the edge.
     [[gnu::always_inline]] inline EdgeRegion set_edge(std::uint32_t of, std::uint32_t side, std::uint32_t corner,
-                                                      ClosestFeatures2& closest) const {
+                                                      Double2 local_corner, ClosestFeatures2& closest) const {
         const Core reference = shapes_[of], other = shapes_[1 - of];
         const Double2 own_corner = other.corner(corner), normal = reference.normal(side);
-        const Double2 local_corner = seen_[of].point(own_corner);
         closest.of = of;
         closest.gap = lanes::dot(normal, local_corner)[0] - reference.offset(side);
         closest.set_corners(side, reference.after(side), corner);
@@ -212,7 +219,8 @@ private:
         for (std::uint32_t i = 0; i < 2; ++i) set_rows(shapes_[i], storage[i], rows[i]);
         if (!walk_to_closest(rows[0], rows[1], places, features)) return false;
         if (!features.is_edge) return set_corners(features.corners[0], features.corners[1], true, closest);
-        set_edge(features.of, features.side, features.corners[1 - features.of], closest);
+        const std::uint32_t of = features.of, corner = features.corners[1 - of];
+        set_edge(of, features.side, corner, seen_[of].point(other_than(of).corner(corner)), closest);
         return closest.gap > 0;
     }
     static void set_rows(const PolygonCore& core, SoaStorage&, PolygonSoa& rows) { rows = core.sides(); }
@@ -254,7 +262,8 @@ private:
         if (cache.count == 1) return set_corners(corner_a, corner_b, false, closest);
         const std::uint32_t of = cache.corner_a[0] != cache.corner_a[1] ? 0 : 1;
         const std::uint32_t side = of == 0 ? corner_a : corner_b, corner = of == 0 ? corner_b : corner_a;
-        return set_edge(of, side, corner, closest) == EdgeRegion::within && closest.gap > 0 &&
+        const Double2 local_corner = shapes_[of].place().back(between(of) + from_position(other_than(of), corner));
+        return set_edge(of, side, corner, local_corner, closest) == EdgeRegion::within && closest.gap > 0 &&
                other_than(of).is_farthest(corner, -other_than(of).place().back(closest.normal));
     }
     /// Whether the last separating edge proves that the cores are farther apart than `reach`, whatever the cache

@@ -64,13 +64,13 @@ PairAnswer2 pair2_within(PlacedPolygon& a, PlacedPolygon& b, double reach, Cache
         ClosestFeatures2 closest;
         return closest_of_points<false>(a, b, reach_of_cores, closest);
     }
-    return with_cores(a, b, [&](const auto& pair) { return pair.within(reach_of_cores, cache); });
+    return with_cores(a, b, [&](auto pair) { return pair.within(reach_of_cores, cache); });
 }
 
 PairAnswer2 pair2_closest(PlacedPolygon& a, PlacedPolygon& b, Cache* cache, ClosestFeatures2& closest) {
     if (!is_finite(a.radius + b.radius)) return PairAnswer2::unknown;
     if (a.is_point() || b.is_point()) return closest_of_points<true>(a, b, unlimited, closest);
-    return with_cores(a, b, [&](const auto& pair) {
+    return with_cores(a, b, [&](auto pair) {
         const PairAnswer2 answer = pair.find_closest(unlimited, cache, closest);
         if (answer == PairAnswer2::within) set_numbers(pair.shape(0), pair.shape(1), closest);
         return answer;
@@ -86,7 +86,7 @@ PairAnswer2 pair2_contact(PlacedPolygon& a, PlacedPolygon& b, double reach, doub
         if (answer == PairAnswer2::within) set_only_point(a, b, closest, points);
         return answer;
     }
-    return with_cores(a, b, [&](const auto& pair) {
+    return with_cores(a, b, [&](auto pair) {
         const PairAnswer2 answer = pair.find_closest(reach_of_cores, cache, closest);
         if (answer != PairAnswer2::within) return answer;
         find_contact_points(pair, closest, margin, points);

@@ -209,7 +209,8 @@ private:
 template <class Core>
 ClosedFormAnswer sweep_cores(const PlacedPolygon& polygon_a, const PlacedPolygon& polygon_b,
                              const Double2 (&motions)[2], std::optional<Hit<2>>& result) {
-    const CorePair<Core> pair(polygon_a, polygon_b);
+    CorePair<Core> pair(polygon_a, polygon_b);
+    pair.set_relative_places();
     const Core &a = pair.shape(0), &b = pair.shape(1);
     RelativeMotion relative;
     relative.motion = motions[0] - motions[1];
