@@ -52,16 +52,17 @@ void round_loop(const ClippedLoop& loop, std::array<Vec2, 2 * max_soa_edges>& ro
 /// The fast path for polygons of few edges that overlap by more than rounding. False means unknown.
 bool fast_intersection(const Convex<2>& a, const Convex<2>& b, Polygon& out) {
     if (a.radius > 0 || b.radius > 0 || !is_finite(a) || !is_finite(b)) return false;
-    PlacedPolygon outline_a, outline_b;
-    if (!set_placed_polygon(a, outline_a) || !set_placed_polygon(b, outline_b)) return false;
-    if (outline_a.is_point() || outline_b.is_point()) return false;
-    const PolygonPair pair(outline_a, outline_b);
-    const double scale =
-        std::max({largest(outline_a.place.offset()), largest(outline_b.place.offset()), pair.sides(0).size,
-                  pair.sides(1).size, std::abs(pair.sides(0).x[0]), std::abs(pair.sides(0).y[0]),
-                  std::abs(pair.sides(1).x[0]), std::abs(pair.sides(1).y[0])});
+    PlacedPolygon polygon_a, polygon_b;
+    if (!set_placed_polygon(a, polygon_a) || !set_placed_polygon(b, polygon_b)) return false;
+    double scale = 0;
+    for (PlacedPolygon* polygon : {&polygon_a, &polygon_b}) {
+        polygon->make_rows();
+        const PolygonSoa& sides = polygon->sides;
+        scale = std::max({scale, largest(vector_of(polygon->place.position)), sides.size(), std::abs(sides.x()[0]),
+                          std::abs(sides.y()[0])});
+    }
     ClippedLoop loop;
-    if (!(scale < 1e37) || !clip_polygons(pair, loop)) return false;
+    if (!(scale < 1e37) || !clip_polygons(polygon_a, polygon_b, loop)) return false;
     std::array<Vec2, 2 * max_soa_edges> rounded;
     round_loop(loop, rounded);
     // An overlap this thin could be a gap before rounding to floats; the robust path decides.

@@ -33,13 +33,50 @@ Closest<2> as_closest(const SignedDistance<2>& distance) {
     return result;
 }
 
+/// The answers of the direct method, if it knows the shapes.
+class Direct {
+public:
+    Direct(const Convex<2>& a, const Convex<2>& b) : a_(a), b_(b) {}
+
+    PairAnswer2 distance(Cache* cache, SignedDistance<2>& result) const {
+        return with_polygons([&](PlacedPolygon& a, PlacedPolygon& b) {
+            ClosestFeatures2 closest;
+            const PairAnswer2 answer = pair2_closest(a, b, cache, closest);
+            if (answer == PairAnswer2::within) write(closest, a, b, result);
+            return answer;
+        });
+    }
+    PairAnswer2 overlap(Cache* cache) const {
+        return with_polygons([&](PlacedPolygon& a, PlacedPolygon& b) { return pair2_within(a, b, 0, cache); });
+    }
+    PairAnswer2 contact(SignedDistance<2>& distance, Manifold<2>& manifold) const {
+        return with_polygons([&](PlacedPolygon& a, PlacedPolygon& b) {
+            ClosestFeatures2 closest;
+            ContactLanes points;
+            const PairAnswer2 answer = pair2_contact(a, b, 0, 0, nullptr, closest, points);
+            if (answer != PairAnswer2::within) return answer;
+            write(closest, a, b, distance);
+            write(points, manifold);
+            return answer;
+        });
+    }
+
+private:
+    template <class Query>
+    PairAnswer2 with_polygons(const Query& query) const {
+        PlacedPolygon a, b;
+        return set_placed_polygon(a_, a) && set_placed_polygon(b_, b) ? query(a, b) : PairAnswer2::unknown;
+    }
+
+    const Convex<2>&a_, &b_;
+};
+
 /// Expects the answers of the general searches, certified, and again with a cache.
 void expect_agreement(const Convex<2>& a, const Convex<2>& b, double tolerance, PairCounts& tally) {
     ++tally.pairs;
-    PlacedPolygon outline_a, outline_b;
-    if (!set_placed_polygon(a, outline_a) || !set_placed_polygon(b, outline_b)) return;
+    const Direct method(a, b);
     SignedDistance<2> direct;
-    if (pair2_distance(outline_a, outline_b, nullptr, direct) == PairAnswer2::unknown) return;
+    if (method.distance(nullptr, direct) == PairAnswer2::unknown) return;
     ++tally.answered;
     const SignedDistance<2> searched = signed_distance(a, b);
     tally.overlapping += searched.distance <= 0 ? 1 : 0;
@@ -47,7 +84,7 @@ void expect_agreement(const Convex<2>& a, const Convex<2>& b, double tolerance, 
     EXPECT_NEAR(length(direct.normal), 1, 1e-12);
     EXPECT_TRUE(certify(View<2>(a), View<2>(b), as_closest(direct)));
 
-    const PairAnswer2 near = pair2_within(outline_a, outline_b, 0, nullptr);
+    const PairAnswer2 near = method.overlap(nullptr);
     const bool certain = std::abs(searched.distance) > tolerance;
     if (certain) {
         EXPECT_EQ(near, searched.distance <= 0 ? PairAnswer2::within : PairAnswer2::beyond);
@@ -55,22 +92,19 @@ void expect_agreement(const Convex<2>& a, const Convex<2>& b, double tolerance, 
     Cache cache;
     for (int time = 0; time < 3; ++time) {
         SignedDistance<2> again;
-        ASSERT_NE(pair2_distance(outline_a, outline_b, &cache, again), PairAnswer2::unknown);
+        ASSERT_NE(method.distance(&cache, again), PairAnswer2::unknown);
         EXPECT_NEAR(again.distance, direct.distance, 1e-3 * tolerance);
         if (certain) {
-            EXPECT_EQ(pair2_within(outline_a, outline_b, 0, &cache), near);
+            EXPECT_EQ(method.overlap(&cache), near);
         }
     }
 }
 
 /// Expects equal depths, and each point midway between surfaces that are as deep as it reports.
 void expect_same_contact(const Convex<2>& a, const Convex<2>& b, double tolerance) {
-    PlacedPolygon outline_a, outline_b;
-    if (!set_placed_polygon(a, outline_a) || !set_placed_polygon(b, outline_b)) return;
     SignedDistance<2> distance;
     Manifold<2> direct;
-    const PairAnswer2 answer = pair2_contact(outline_a, outline_b, 0, 0, nullptr, distance, direct);
-    if (answer != PairAnswer2::within) return;
+    if (Direct(a, b).contact(distance, direct) != PairAnswer2::within) return;
     const Manifold<2> expected = manifold(a, b, distance, 0);
     double deepest = 0;
     for (std::size_t i = 0; i < direct.count; ++i) deepest = std::max(deepest, direct.points[i].depth);

@@ -1,6 +1,7 @@
 // After Sutherland and Hodgman, "Reentrant polygon clipping" (1974).
 
 #include <abut/convex/manifold/polygon_clip.hpp>
+#include <abut/convex/pairs/core_pair2.hpp>
 
 namespace abut::detail {
 namespace {
@@ -35,21 +36,23 @@ void cut(const PlanarLoop& from, const double* heights, double tolerance, Planar
 
 }  // namespace
 
-bool clip_polygons(const PolygonPair& pair, ClippedLoop& loop) {
-    const std::uint32_t of = pair.sides(1).size < pair.sides(0).size ? 1 : 0;  // the one that is cut
-    const PolygonSoa &body = pair.sides(of), &tool = pair.sides(1 - of);
+bool clip_polygons(const PlacedPolygon& a, const PlacedPolygon& b, ClippedLoop& loop) {
+    const std::uint32_t of = b.sides.size() < a.sides.size() ? 1 : 0;  // the one that is cut
+    const PolygonSoa &body = of == 0 ? a.sides : b.sides, &tool = of == 0 ? b.sides : a.sides;
     for (const PolygonSoa* sides : {&body, &tool})
-        if (sides->count < 3 || !(sides->area > min_area_ratio * sides->size * sides->size)) return false;
-    const Rigid2& seen = pair.seen_from(of);
+        if (sides->count < 3 || !(sides->area() > min_area_ratio * sides->size() * sides->size())) return false;
+    CorePair<PolygonCore> pair(a, b);
+    pair.set_relative_places();
+    const Rigid2 seen = rigid(pair.seen_from(of));
     const double tolerance =
-        0x1p-47 * (std::abs(seen.x) + std::abs(seen.y) + 2 * (body.size + tool.size) + std::abs(body.x[0]) +
-                   std::abs(body.y[0]) + std::abs(tool.x[0]) + std::abs(tool.y[0]));
+        0x1p-47 * (std::abs(seen.x) + std::abs(seen.y) + 2 * (body.size() + tool.size()) + std::abs(body.x()[0]) +
+                   std::abs(body.y()[0]) + std::abs(tool.x()[0]) + std::abs(tool.y()[0]));
     PlanarLoop loops[2];
     PlanarLoop *now = &loops[0], *next = &loops[1];
-    for (std::uint32_t i = 0; i < body.count; ++i) now->push_back(body.x[i], body.y[i]);
+    for (std::uint32_t i = 0; i < body.count; ++i) now->push_back(body.x()[i], body.y()[i]);
     for (std::uint32_t side = 0; side < tool.count && now->count > 0; ++side) {
         const DVec<2> normal = seen.vector(tool.normal(side));
-        const double offset = tool.offset[side] + (normal.x * seen.x + normal.y * seen.y);
+        const double offset = tool.offset()[side] + (normal.x * seen.x + normal.y * seen.y);
         double heights[2 * max_soa_edges], highest = -std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i < now->count; ++i) {
             heights[i] = (normal.x * now->x[i] + normal.y * now->y[i]) - offset;
@@ -59,7 +62,7 @@ bool clip_polygons(const PolygonPair& pair, ClippedLoop& loop) {
         cut(*now, heights, tolerance, *next);
         std::swap(now, next);
     }
-    const Rigid2& place = pair.polygon(of).place;
+    const Rigid2 place = rigid((of == 0 ? a : b).place);
     loop.count = now->count;
     for (std::size_t i = 0; i < now->count; ++i) loop.points[i] = place.point(DVec<2>(now->x[i], now->y[i]));
     return true;

@@ -3,7 +3,7 @@
 // The intersection of two polygons of few edges: the smaller one is cut with the edge lines of the larger one, on the
 // stack.
 
-#include <abut/convex/pairs/polygon2.hpp>
+#include <abut/convex/pairs/placed_polygon2.hpp>
 
 namespace abut::detail {
 
@@ -13,8 +13,8 @@ struct ClippedLoop {
     std::size_t count = 0;
 };
 
-/// Returns false if one of them has almost no area, which takes the general algorithm. Corners of the polygon that is
-/// cut stay in place; a corner within rounding of a line lies on it.
-bool clip_polygons(const PolygonPair& pair, ClippedLoop& loop);
+/// Both have rows. Returns false if one of them has almost no area, which takes the general algorithm. Corners of the
+/// polygon that is cut stay in place; a corner within rounding of a line lies on it.
+bool clip_polygons(const PlacedPolygon& a, const PlacedPolygon& b, ClippedLoop& loop);
 
 }  // namespace abut::detail

@@ -1,89 +1,98 @@
-#include <abut/convex/manifold/polygon_manifold.hpp>
 #include <abut/convex/pairs/pair2.hpp>
-#include <abut/convex/pairs/point2.hpp>
 
 namespace abut::detail {
 namespace {
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
-PairAnswer2 distance_of_points(const PlacedPolygon& a, const PlacedPolygon& b, SignedDistance<2>& result) {
-    const DVec<2> from = a.place.offset(), between = b.place.offset() - from;
-    const double gap = length(between);
-    if (!(gap > 0)) return PairAnswer2::unknown;
-    result.distance = gap - a.radius - b.radius;
-    result.normal = between / gap;
-    result.on_a = from + result.normal * a.radius;
-    result.corners = {};
-    result.corners.count = 2;
-    return PairAnswer2::within;
+/// Calls query(pair) with the pair's cores: without rows if neither has any.
+template <class Query>
+inline PairAnswer2 with_cores(PlacedPolygon& a, PlacedPolygon& b, const Query& query) {
+    if (a.core != PlacedPolygon::Core::polygon && b.core != PlacedPolygon::Core::polygon)
+        return query(CorePair<BoxCore>(a, b));
+    a.make_rows();
+    b.make_rows();
+    return query(CorePair<PolygonCore>(a, b));
 }
 
-void set_distance(const PolygonPair& pair, const ClosestFeatures2& closest, SignedDistance<2>& result) {
-    const PlacedPolygon &a = pair.polygon(0), &b = pair.polygon(1), &reference = pair.polygon(closest.of);
-    const PolygonSoa &sides = pair.sides(closest.of), &other = pair.sides(1 - closest.of);
-    const bool a_is_reference = closest.of == 0;
-    const DVec<2> out = reference.place.vector(closest.normal);
-    result.distance = closest.gap - a.radius - b.radius;
-    result.normal = a_is_reference ? out : -out;
-    result.on_a =
-        reference.place.point(a_is_reference ? closest.on_reference : closest.on_other) + result.normal * a.radius;
-    auto &of_reference = a_is_reference ? result.corners.a : result.corners.b,
-         &of_other = a_is_reference ? result.corners.b : result.corners.a;
-    for (std::size_t i = 0; i < 2; ++i) {
-        of_reference[i] = sides.corner_number(closest.reference_corners[i]);
-        of_other[i] = other.corner_number(closest.other_corners[i]);
+template <class Core>
+inline void set_numbers(const Core& a, const Core& b, ClosestFeatures2& closest) {
+    for (std::uint32_t i = 0; i < 2; ++i) {
+        closest.corners[0][i] = a.number(closest.corners[0][i]);
+        closest.corners[1][i] = b.number(closest.corners[1][i]);
     }
-    result.corners.count = 2;
 }
 
-/// Pairs of which one is a point with a ball.
-PairAnswer2 distance_of_round(const PlacedPolygon& a, const PlacedPolygon& b, double reach, SignedDistance<2>& result) {
-    if (a.is_point() && b.is_point()) return distance_of_points(a, b, result);
-    const bool known =
-        a.is_point() ? distance_from_point(b, a, false, reach, result) : distance_from_point(a, b, true, reach, result);
-    return known ? PairAnswer2::within : PairAnswer2::beyond;
+/// Pairs of which one is a point. If the answer is to be `exact`, a closest point at a corner is exactly there.
+template <bool exact>
+[[gnu::always_inline]] inline PairAnswer2 closest_of_points(const PlacedPolygon& a, const PlacedPolygon& b,
+                                                            double reach, ClosestFeatures2& closest) {
+    if (a.is_point() && b.is_point()) return closest_points(a.place.position, b.place.position, reach, closest);
+    const std::uint32_t of = a.is_point() ? 1 : 0;
+    const PlacedPolygon &shape = of == 0 ? a : b, &point = of == 0 ? b : a;
+    const auto find = [&](const auto& core) {
+        const PairAnswer2 answer = closest_to_point(core, point.place.position, of, reach, closest);
+        if (answer != PairAnswer2::within) return answer;
+        std::uint32_t(&corners)[2] = closest.corners[of];
+        if (exact && corners[0] == corners[1]) closest.on_reference = shape.place.point(core.corner(corners[0]));
+        for (std::uint32_t& corner : corners) corner = core.number(corner);
+        return answer;
+    };
+    return shape.core == PlacedPolygon::Core::polygon ? find(PolygonCore(shape)) : find(BoxCore(shape));
+}
+
+/// The feature is zero for an edge, the corner's number for a corner.
+inline void set_only_point(const PlacedPolygon& a, const PlacedPolygon& b, const ClosestFeatures2& closest,
+                           ContactLanes& points) {
+    const double depth = a.radius + b.radius - closest.gap;
+    const Double2 position = closest.midway(closest.of == 0 ? b.radius : a.radius, depth);
+    const auto& corners = closest.corners;
+    const bool at_corner = corners[0][0] == corners[0][1] && corners[1][0] == corners[1][1];
+    points.x = lanes::first(position);
+    points.y = lanes::second(position);
+    points.depth = lanes::double2(depth);
+    points.features[0] = (corners[0][0] << 8 ^ corners[1][0]) & (0u - (at_corner ? 1u : 0u));
+    points.mask = 1;
 }
 
 }  // namespace
 
-PairAnswer2 pair2_within(const PlacedPolygon& a, const PlacedPolygon& b, double reach, Cache* cache) {
+PairAnswer2 pair2_within(PlacedPolygon& a, PlacedPolygon& b, double reach, Cache* cache) {
+    const double reach_of_cores = reach + (a.radius + b.radius);
+    if (!is_finite(a.radius + b.radius)) return PairAnswer2::unknown;
     if (a.is_point() || b.is_point()) {
-        SignedDistance<2> distance;
-        const PairAnswer2 answer = distance_of_round(a, b, reach, distance);
-        return answer == PairAnswer2::within && distance.distance > reach ? PairAnswer2::beyond : answer;
+        ClosestFeatures2 closest;
+        return closest_of_points<false>(a, b, reach_of_cores, closest);
     }
-    const PolygonPair pair(a, b);
-    return pair.near(reach + a.radius + b.radius, cache);
+    return with_cores(a, b, [&](auto pair) { return pair.within(reach_of_cores, cache); });
 }
 
-PairAnswer2 pair2_distance(const PlacedPolygon& a, const PlacedPolygon& b, Cache* cache, SignedDistance<2>& distance) {
-    if (a.is_point() || b.is_point()) return distance_of_round(a, b, unlimited, distance);
-    const PolygonPair pair(a, b);
-    ClosestFeatures2 closest;
-    if (pair.find_closest(unlimited, cache, closest) == PairAnswer2::unknown) return PairAnswer2::unknown;
-    set_distance(pair, closest, distance);
-    return PairAnswer2::within;
+PairAnswer2 pair2_closest(PlacedPolygon& a, PlacedPolygon& b, Cache* cache, ClosestFeatures2& closest) {
+    if (!is_finite(a.radius + b.radius)) return PairAnswer2::unknown;
+    if (a.is_point() || b.is_point()) return closest_of_points<true>(a, b, unlimited, closest);
+    return with_cores(a, b, [&](auto pair) {
+        const PairAnswer2 answer = pair.find_closest(unlimited, cache, closest);
+        if (answer == PairAnswer2::within) set_numbers(pair.shape(0), pair.shape(1), closest);
+        return answer;
+    });
 }
 
-PairAnswer2 pair2_contact(const PlacedPolygon& a, const PlacedPolygon& b, double reach, double margin, Cache* cache,
-                          SignedDistance<2>& distance, Manifold<2>& manifold) {
+PairAnswer2 pair2_contact(PlacedPolygon& a, PlacedPolygon& b, double reach, double margin, Cache* cache,
+                          ClosestFeatures2& closest, ContactLanes& points) {
+    const double reach_of_cores = reach + (a.radius + b.radius);
+    if (!is_finite(a.radius + b.radius)) return PairAnswer2::unknown;
     if (a.is_point() || b.is_point()) {
-        const PairAnswer2 answer = distance_of_round(a, b, reach, distance);
-        if (answer != PairAnswer2::within) return answer;
-        if (distance.distance > reach) return PairAnswer2::beyond;
-        manifold.count = 1;
-        manifold.points[0] = {distance.on_a + distance.normal * (0.5 * distance.distance), -distance.distance,
-                              point_name(distance.corners)};
+        const PairAnswer2 answer = closest_of_points<false>(a, b, reach_of_cores, closest);
+        if (answer == PairAnswer2::within) set_only_point(a, b, closest, points);
         return answer;
     }
-    const PolygonPair pair(a, b);
-    ClosestFeatures2 closest;
-    const PairAnswer2 answer = pair.find_closest(reach + a.radius + b.radius, cache, closest);
-    if (answer != PairAnswer2::within) return answer;
-    set_distance(pair, closest, distance);
-    set_polygon_manifold(pair, closest, distance, margin, manifold);
-    return answer;
+    return with_cores(a, b, [&](auto pair) {
+        const PairAnswer2 answer = pair.find_closest(reach_of_cores, cache, closest);
+        if (answer != PairAnswer2::within) return answer;
+        find_contact_points(pair, closest, margin, points);
+        set_numbers(pair.shape(0), pair.shape(1), closest);
+        return answer;
+    });
 }
 
 }  // namespace abut::detail

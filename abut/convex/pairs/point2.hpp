@@ -1,13 +1,9 @@
 #pragma once
 
-// The Voronoi region of a polygon that contains a point: that of an edge or of a vertex. Inline, because it runs in
-// every query with a circle. For .cpp files.
+// The Voronoi region of a polygon or box that contains a point: that of an edge or of a vertex. Inline, because it runs
+// in every query with a circle. For .cpp files.
 
-#include <abut/convex/gjk/signed_distance.hpp>
-#include <abut/convex/polygon_soa.hpp>
-#include <abut/math/simd/double2-inl.h>
-
-#include <limits>
+#include <abut/convex/pairs/polygon_cores2.hpp>
 
 namespace abut::detail {
 
@@ -48,32 +44,32 @@ static_assert(max_soa_edges == IndexedLanes::index_mask + 1);
 
 enum class Near : std::uint8_t { beyond, within, unclear };
 
-/// The location of a point, at `point` times `scale` in the polygon's frame. Beyond `reach` only the gap is set, which
-/// is not finite if the point isn't. If the result is `unclear`, the caller calls `locate_past_edge`.
+/// The location of a point in the polygon's frame. Beyond `reach` only the gap is set, which is not finite if the point
+/// isn't. If the result is `unclear`, the caller calls `locate_past_edge`.
 ///
 /// The branches here can't be predicted, and the dependency chains are long. So the root and the quotient of the
 /// distances from both ends of the edge begin before it is known which one is needed.
-__attribute__((always_inline)) inline Near locate_point(const PolygonSoa& sides, lanes::Double2 point,
-                                                        lanes::Double2 scale, double reach, PointLocation& place) {
+[[gnu::always_inline]] inline Near locate_point(const PolygonSoa& sides, lanes::Double2 point, double reach,
+                                                PointLocation& place) {
     using namespace lanes;
     const Double2 x = first(point), y = second(point);
     Double2 widest = double2(-std::numeric_limits<double>::infinity());
     for (std::size_t i = 0; 2 * i < sides.count; ++i) {
-        const Double2 height = (at(sides.normal_x + 2 * i) * x + at(sides.normal_y + 2 * i) * y) * scale;
-        widest = greater(IndexedLanes::put(height - at(sides.offset + 2 * i), i), widest);
+        const Double2 height = at(sides.normal_x() + 2 * i) * x + at(sides.normal_y() + 2 * i) * y;
+        widest = greater(IndexedLanes::put(height - at(sides.offset() + 2 * i), i), widest);
     }
     widest = greater(widest, swapped(widest));
     place.gap = IndexedLanes::value(widest);
     if (!(place.gap <= reach)) return Near::beyond;
     const std::uint32_t side = IndexedLanes::number(widest), after = sides.after(side);
 
-    const double normal_x = sides.normal_x[side], normal_y = sides.normal_y[side];
+    const double normal_x = sides.normal_x()[side], normal_y = sides.normal_y()[side];
     place.normal = double2(normal_x, normal_y);
     place.first = side;
     place.second = after;
     // From the start and from the end of the edge.
-    const Double2 from_x = x * scale - double2(sides.x[side], sides.x[after]),
-                  from_y = y * scale - double2(sides.y[side], sides.y[after]);
+    const Double2 from_x = x - double2(sides.x()[side], sides.x()[after]),
+                  from_y = y - double2(sides.y()[side], sides.y()[after]);
     const Double2 squares = from_x * from_x + from_y * from_y;
     const Double2 parts = (double2(normal_x) * from_y - double2(normal_y) * from_x) * Double2{1, -1};
     const std::uint32_t past = bits(parts < Double2{0, 0});
@@ -84,7 +80,7 @@ __attribute__((always_inline)) inline Near locate_point(const PolygonSoa& sides,
     const std::uint32_t next = after ^ ((after ^ last) & (0u - before));
     const Mask2 start = first(parts) < Double2{0, 0};
     const Double2 from = select(start, lower(from_x, from_y), upper(from_x, from_y));
-    const double outside = sides.normal_x[next] * from[1] - sides.normal_y[next] * from[0];
+    const double outside = sides.normal_x()[next] * from[1] - sides.normal_y()[next] * from[0];
     static constexpr double outwards[2] = {-1, 1};
     const Double2 sizes = magnitude(point) + magnitude(point) + magnitude(from);
     const double gap = select(start, away, swapped(away))[0];
@@ -96,40 +92,38 @@ __attribute__((always_inline)) inline Near locate_point(const PolygonSoa& sides,
     return gap <= reach ? Near::within : Near::beyond;
 }
 
-/// A polygon and a point with balls around them. Returns false if the distance is above `reach`.
-inline bool distance_from_point(const PlacedPolygon& polygon, const PlacedPolygon& round, bool polygon_is_a,
-                                double reach, SignedDistance<2>& result) {
-    const PolygonSoa& sides = polygon.sides;
-    const DVec<2> center = round.place.offset(), point = polygon.place.inverse_point(center);
-    const double radii = polygon.radius + round.radius;
-    PointLocation place;
-    const Near near = locate_point(sides, lanes::double2(point.x, point.y), lanes::double2(1), reach + radii, place);
-    if (near == Near::beyond) return false;
-    if (near == Near::unclear) {
-        locate_past_edge(sides, point, place);
-        if (!(place.gap <= reach + radii)) return false;
-    }
-    const DVec<2> out = polygon.place.vector({place.normal[0], place.normal[1]});
-    const std::uint32_t first = sides.corner_number(place.first), second = sides.corner_number(place.second);
-    result.distance = place.gap - radii;
-    result.normal = polygon_is_a ? out : -out;
-    // In the polygon's frame, so that a closest point at a corner is exactly there.
-    const DVec<2> on = place.first == place.second ? sides.corner(place.first)
-                                                   : point - DVec<2>(place.normal[0], place.normal[1]) * place.gap;
-    result.on_a = polygon_is_a ? polygon.place.point(on) + out * polygon.radius : center - out * round.radius;
-    auto &of_polygon = polygon_is_a ? result.corners.a : result.corners.b,
-         &of_point = polygon_is_a ? result.corners.b : result.corners.a;
-    of_polygon[0] = first;
-    of_polygon[1] = second;
-    of_point[0] = of_point[1] = 0;
-    result.corners.count = 2;
-    return true;
-}
+// These return false if the distance is above `reach`.
 
-/// The feature of the only contact point: zero for an edge, the corner's number for a corner.
-inline std::uint32_t point_name(const ClosestCorners<2>& corners) {
-    const bool at_corner = corners.a[0] == corners.a[1] && corners.b[0] == corners.b[1];
-    return (corners.a[0] << 8 ^ corners.b[0]) & (0u - (at_corner ? 1u : 0u));
+inline bool locate(const PolygonCore& core, Double2 point, double reach, PointLocation& place) {
+    const Near near = locate_point(core.sides(), point, reach, place);
+    if (near == Near::unclear) locate_past_edge(core.sides(), {point[0], point[1]}, place);
+    return near == Near::within || (near == Near::unclear && place.gap <= reach);
+}
+/// The signs are those of another vector.
+inline Double2 with_signs_of(Double2 v, Double2 signs) {
+    const lanes::Mask2 magnitudes = lanes::Mask2{0, 0} + 0x7fffffffffffffff;
+    return lanes::select(magnitudes, v, signs);
+}
+inline bool locate(const BoxCore& core, Double2 point, double reach, PointLocation& place) {
+    using namespace lanes;
+    const Double2 beyond = magnitude(point) - core.half(), outside = greater(beyond, Double2{0, 0});
+    const std::uint32_t back = bits(point < Double2{0, 0});
+    if (bits(beyond > Double2{0, 0}) == 3) {
+        const Double2 square = lanes::dot(outside, outside), away = root(square),
+                      per_away = away * (Double2{1, 1} / square);
+        static constexpr std::uint32_t corners[4] = {0, 1, 3, 2};
+        place.gap = away[0];
+        place.normal = with_signs_of(outside * per_away, point);
+        place.first = place.second = corners[back];
+    } else {
+        const std::uint32_t along_x = beyond[0] > beyond[1] ? 1 : 0;
+        static constexpr std::uint32_t sides[8] = {0, 0, 2, 2, 3, 1, 3, 1};
+        place.gap = std::max(beyond[0], beyond[1]);
+        place.first = sides[along_x << 2 | back];
+        place.second = core.after(place.first);
+        place.normal = core.normal(place.first);
+    }
+    return place.gap <= reach;
 }
 
 }  // namespace abut::detail

@@ -6,7 +6,7 @@ namespace abut::detail {
 namespace {
 
 /// Slivers, whose edges enclose no sine above a thousandth, are left to the general algorithms.
-constexpr double min_sine_squared = 1e-6;
+constexpr double min_segment_sine_squared = 1e-6;
 
 struct SeenTriangle {
     DVec<3> origin;  ///< the first corner, in the world
@@ -21,7 +21,7 @@ struct SeenTriangle {
         square = length_squared(area);
     }
     bool is_thin() const {
-        return !(square > min_sine_squared * length_squared(corners[1]) * length_squared(corners[2]));
+        return !(square > min_segment_sine_squared * length_squared(corners[1]) * length_squared(corners[2]));
     }
 
     /// Whether the projection of a point lies within the triangle.

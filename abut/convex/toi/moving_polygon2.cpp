@@ -61,8 +61,10 @@ bool passage_of_any(const PolygonSoa& a, const PolygonSoa& b, const Rigid2 (&pla
     place(b, placed[0], points[0]);
     place(a, placed[1], points[1]);
     PassageBuilder builder(radius, depth);
-    builder.add(a, points[0], b.count, motion[0], 0);
-    builder.add(b, points[1], a.count, motion[1], a.capacity);
+    // A point has no edges.
+    const std::uint32_t edges_of_a = a.count > 1 ? a.capacity() : 0, edges_of_b = b.count > 1 ? b.capacity() : 0;
+    if (edges_of_a > 0) builder.add(a, points[0], b.count, motion[0], 0);
+    if (edges_of_b > 0) builder.add(b, points[1], a.count, motion[1], edges_of_a);
     result.clear_until = hn::GetLane(hn::MaxOfLanes(d, builder.clear_until));
     result.clear_from = hn::GetLane(hn::MinOfLanes(d, builder.clear_from));
     if (result.misses(latest)) return false;
@@ -70,13 +72,13 @@ bool passage_of_any(const PolygonSoa& a, const PolygonSoa& b, const Rigid2 (&pla
     result.deep_until = hn::GetLane(hn::MinOfLanes(d, builder.deep_until));
     const Vector last = hn::MaxOfLanes(d, builder.last_enters);
     result.enters = hn::GetLane(last);
-    const std::uint32_t side = first_of(builder.enters, std::size_t{a.capacity} + b.capacity, last);
-    const bool of_a = side < a.capacity;
+    const std::uint32_t side = first_of(builder.enters, std::size_t{edges_of_a} + edges_of_b, last);
+    const bool of_a = side < edges_of_a;
     result.of = of_a ? 0 : 1;
-    result.side = of_a ? side : side - a.capacity;
+    result.side = of_a ? side : side - edges_of_a;
     const PolygonSoa& reference = of_a ? a : b;
-    result.corner = lowest(points[result.of], (of_a ? b : a).capacity, reference.normal_x[result.side],
-                           reference.normal_y[result.side]);
+    result.corner = lowest(points[result.of], (of_a ? b : a).capacity(), reference.normal_x()[result.side],
+                           reference.normal_y()[result.side]);
     return true;
 }
 

@@ -50,7 +50,7 @@ struct PlacedPolygons {
 
 template <>
 bool part_overlaps(const Convex<2>& a, const Convex<2>& b, const SearchOptions<2>& options) {
-    const PlacedPolygons polygons(a, b);
+    PlacedPolygons polygons(a, b);
     const PairAnswer2 answer =
         polygons.known ? pair2_within(polygons.a, polygons.b, 0, options.cache) : PairAnswer2::unknown;
     if (answer == PairAnswer2::unknown) return any_overlap(a, b, options);
@@ -61,10 +61,14 @@ bool part_overlaps(const Convex<2>& a, const Convex<2>& b, const SearchOptions<2
 template <>
 SignedDistance<2> part_distance(const Convex<2>& a, const Convex<2>& b, const SearchOptions<2>& options) {
     SignedDistance<2> result;
-    const PlacedPolygons polygons(a, b);
-    if (!polygons.known || pair2_distance(polygons.a, polygons.b, options.cache, result) == PairAnswer2::unknown) {
+    PlacedPolygons polygons(a, b);
+    ClosestFeatures2 closest;
+    if (!polygons.known || pair2_closest(polygons.a, polygons.b, options.cache, closest) == PairAnswer2::unknown) {
         any_distance(a, b, options, result);
-    } else if (options.trace != nullptr) {
+        return result;
+    }
+    write(closest, polygons.a, polygons.b, result);
+    if (options.trace != nullptr) {
         SignedDistance<2> searched;
         any_distance<2>(a, b, {nullptr, options.trace}, searched);
     }
@@ -74,11 +78,17 @@ SignedDistance<2> part_distance(const Convex<2>& a, const Convex<2>& b, const Se
 template <>
 bool part_distance_within(const Convex<2>& a, const Convex<2>& b, double reach, double margin,
                           const SearchOptions<2>& options, PartContact<2>& contact) {
-    const PlacedPolygons polygons(a, b);
-    const PairAnswer2 answer = polygons.known ? pair2_contact(polygons.a, polygons.b, reach, margin, options.cache,
-                                                              contact.distance, contact.manifold)
-                                              : PairAnswer2::unknown;
+    PlacedPolygons polygons(a, b);
+    ClosestFeatures2 closest;
+    ContactLanes points;
+    const PairAnswer2 answer =
+        polygons.known ? pair2_contact(polygons.a, polygons.b, reach, margin, options.cache, closest, points)
+                       : PairAnswer2::unknown;
     if (answer == PairAnswer2::unknown) return any_distance_within(a, b, reach, options, contact);
+    if (answer == PairAnswer2::within) {
+        write(closest, polygons.a, polygons.b, contact.distance);
+        write(points, contact.manifold);
+    }
     if (options.trace != nullptr) {
         PartContact<2> searched;
         if (any_distance_within<2>(a, b, reach, {nullptr, options.trace}, searched))

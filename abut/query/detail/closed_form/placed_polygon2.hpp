@@ -2,8 +2,7 @@
 
 // Plain shapes of the plane as placed polygons, without views of them. For .cpp files.
 
-#include <abut/convex/polygon_soa.hpp>
-#include <abut/math/detail/set_affine.hpp>
+#include <abut/convex/pairs/placed_polygon2.hpp>
 #include <abut/shape/ball.hpp>
 #include <abut/shape/box.hpp>
 #include <abut/shape/capsule.hpp>
@@ -13,63 +12,60 @@
 
 namespace abut::detail {
 
-inline Rigid2 place_of(const ShapeRef<2>& given) {
-    return given.pose != nullptr ? rigid(*given.pose) : Rigid2{1, 0, 0, 0};
+inline void set_placed_segment(const Vec2& from, const Vec2& to, const Pose2* pose, PlacedPolygon& polygon) {
+    const Double2 a = lanes::loaded(&from.x), b = lanes::loaded(&to.x), middle = (a + b) * Double2{0.5, 0.5};
+    if (pose == nullptr) return polygon.set_segment(middle, b - a);
+    const LanePose place = lane_pose(*pose);
+    polygon.set_segment(place.point(middle), place.vector(b - a));
 }
 
-/// Places a box like `convex(box, pose)`.
-inline Rigid2 place_of_box(const Box2& box, const Pose2* pose) {
-    if (pose == nullptr) return rigid({box.center, box.rotation});
-    const Affine<2> place = convex(box, *pose).place;
-    return {place.column[0].x, place.column[0].y, place.offset.x, place.offset.y};
-}
-
-/// For one kind, so that the code behind can be compiled for that kind.
-template <ShapeKind kind>
-inline bool set_placed_polygon_of(const ShapeRef<2>& given, PlacedPolygon& polygon) {
-    if constexpr (kind != ShapeKind::box && kind != ShapeKind::ball) polygon.place = place_of(given);
-    polygon.radius = 0;
-    if constexpr (kind == ShapeKind::ball) {
-        const Circle& circle = given.as<Circle>();
-        polygon.radius = static_cast<double>(circle.radius);
-        polygon.set_point(place_of(given).point(DVec<2>(circle.center)));
-    } else if constexpr (kind == ShapeKind::capsule) {
-        const Capsule2& capsule = given.as<Capsule2>();
-        polygon.radius = static_cast<double>(capsule.radius);
-        return polygon.set_segment(capsule.a, capsule.b);
-    } else if constexpr (kind == ShapeKind::segment) {
-        const Segment2& segment = given.as<Segment2>();
-        return polygon.set_segment(segment.a, segment.b);
-    } else if constexpr (kind == ShapeKind::triangle) {
-        const Triangle2& triangle = given.as<Triangle2>();
-        return polygon.set_triangle(triangle.a, triangle.b, triangle.c);
-    } else if constexpr (kind == ShapeKind::box) {
-        polygon.place = place_of_box(given.as<Box2>(), given.pose);
-        polygon.set_box(DVec<2>(given.as<Box2>().half));
-    } else {
-        const Polygon& own = given.as<Polygon>();
-        if (own.sides() == nullptr) return false;
-        polygon.sides.view_rows(own.sides(), own.side_count());
-    }
-    return true;
-}
-
-/// For any kind. Returns false for a shape that is no polygon of few edges.
+/// Returns false for a shape that is no polygon of few edges.
 inline bool set_placed_polygon(const ShapeRef<2>& given, PlacedPolygon& polygon) {
+    polygon.radius = 0;
     switch (given.kind) {
-        case ShapeKind::ball:
-            return set_placed_polygon_of<ShapeKind::ball>(given, polygon);
-        case ShapeKind::capsule:
-            return set_placed_polygon_of<ShapeKind::capsule>(given, polygon);
+        case ShapeKind::ball: {
+            const Circle& circle = given.as<Circle>();
+            const Double2 center = lanes::loaded(&circle.center.x);
+            polygon.radius = static_cast<double>(circle.radius);
+            polygon.set_point(given.pose == nullptr ? center : lane_pose(*given.pose).point(center));
+            return true;
+        }
+        case ShapeKind::capsule: {
+            const Capsule2& capsule = given.as<Capsule2>();
+            set_placed_segment(capsule.a, capsule.b, given.pose, polygon);
+            polygon.radius = static_cast<double>(capsule.radius);
+            return true;
+        }
         case ShapeKind::segment:
-            return set_placed_polygon_of<ShapeKind::segment>(given, polygon);
-        case ShapeKind::triangle:
-            return set_placed_polygon_of<ShapeKind::triangle>(given, polygon);
-        case ShapeKind::box:
-            return set_placed_polygon_of<ShapeKind::box>(given, polygon);
-        default:
-            return set_placed_polygon_of<ShapeKind::polytope>(given, polygon);
+            set_placed_segment(given.as<Segment2>().a, given.as<Segment2>().b, given.pose, polygon);
+            return true;
+        case ShapeKind::triangle: {
+            const Triangle2& triangle = given.as<Triangle2>();
+            polygon.place = lane_pose(pose_or_none(given.pose));
+            return polygon.set_triangle(triangle.a, triangle.b, triangle.c);
+        }
+        case ShapeKind::box: {
+            const Box2& box = given.as<Box2>();
+            polygon.place.position = lanes::loaded(&box.center.x);
+            Double2 turn = unit_turn(box.rotation);
+            if (given.pose != nullptr) {
+                const LanePose place = lane_pose(*given.pose);
+                polygon.place.position = place.point(polygon.place.position);
+                turn = place.vector(turn);
+            }
+            polygon.place.set_turn(turn);
+            polygon.set_box(lanes::loaded(&box.half.x));
+            return true;
+        }
+        case ShapeKind::polytope: {
+            const Polygon& own = given.as<Polygon>();
+            if (own.sides() == nullptr) return false;
+            polygon.place = lane_pose(pose_or_none(given.pose));
+            polygon.set_rows(own.sides(), own.side_count());
+            return true;
+        }
     }
+    return false;
 }
 
 }  // namespace abut::detail

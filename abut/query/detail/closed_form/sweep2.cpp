@@ -1,58 +1,17 @@
+#include <abut/convex/pairs/core_pair2.hpp>
 #include <abut/convex/toi/moving_polygon2.hpp>
 #include <abut/query/detail/closed_form/closed_form.hpp>
 #include <abut/query/detail/closed_form/placed_polygon2.hpp>
-#include <abut/query/detail/closed_form/polygon_cores2.hpp>
 #include <abut/query/detail/part_pairs.hpp>
 #include <abut/query/detail/sweep/tolerances.hpp>
 
 namespace abut::detail {
 namespace {
 
-using namespace polygon_cores;
-
 /// A motion that approaches by less than this fraction grazes.
 constexpr double min_slope = 1e-6;
 
-/// Any shape of the plane as a polygon: a circle is a box of size 0, a capsule or segment is a box of width 0, so that
-/// their ends are edges too. Two or all four of their vertices coincide.
-class PlacedPolygonCore : public PolygonCore {
-public:
-    PlacedPolygonCore(ShapeKind kind, const PolygonSoa& sides) : PolygonCore(sides), kind_(kind) {}
-
-    std::uint32_t number(std::uint32_t i) const {
-        if (kind_ == ShapeKind::ball) return 0;
-        const std::uint32_t number = sides().corner_number(i);
-        return is_degenerate() ? ~number & 1 : number;
-    }
-    bool is_farthest(std::uint32_t i, Double2 direction) const {
-        if (kind_ == ShapeKind::ball) return true;
-        return is_degenerate() ? direction[0] * corner(i)[0] >= 0 : PolygonCore::is_farthest(i, direction);
-    }
-
-private:
-    bool is_degenerate() const { return kind_ == ShapeKind::capsule || kind_ == ShapeKind::segment; }
-
-    ShapeKind kind_;
-};
-
-template <class Core>
-struct Moving {
-    Placed<Core> shape;
-    Double2 motion;
-    double radius = 0;
-
-    Moving(const ShapeRef<2>& given, const Vec2& motion_of_shape)
-        : shape(given), motion(lanes::loaded(&motion_of_shape.x)) {}
-    Moving(ShapeKind kind, const PlacedPolygon& polygon, const Vec2& motion_of_shape)
-        : shape(Core(kind, polygon.sides), polygon.place),
-          motion(lanes::loaded(&motion_of_shape.x)),
-          radius(polygon.radius) {}
-
-    Double2 offset(std::uint32_t corner) const {
-        return shape.place.vector(shape.core.corner(corner)) * shape.place.scale;
-    }
-    Double2 to_local(Double2 vector) const { return shape.place.back(vector) * shape.place.scale; }
-};
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// The motion of A relative to B, and the tolerances.
 struct RelativeMotion {
@@ -65,19 +24,19 @@ struct RelativeMotion {
     double certain_depth() const { return beyond_sliding * tolerances.slide; }
 };
 
-inline bool find_passage(const PolygonCore& a, const PolygonCore& b, const Rigid2 (&relative_places)[2],
-                         const Double2 (&coming)[2], const RelativeMotion& relative, Passage& passage) {
-    const DVec<2> directions[2] = {{coming[0][0], coming[0][1]}, {coming[1][0], coming[1][1]}};
-    return passage_of_polygons(a.sides(), b.sides(), relative_places, directions, relative.radius,
+inline bool find_passage(const CorePair<PolygonCore>& pair, const Double2 (&coming)[2], const RelativeMotion& relative,
+                         Passage& passage) {
+    const Rigid2 places[2] = {rigid(pair.seen_from(0)), rigid(pair.seen_from(1))};
+    const DVec<2> directions[2] = {vector_of(coming[0]), vector_of(coming[1])};
+    return passage_of_polygons(pair.shape(0).sides(), pair.shape(1).sides(), places, directions, relative.radius,
                                relative.certain_depth(), relative.max_fraction, passage);
 }
-inline bool find_passage(const BoxCore& a, const BoxCore& b, const Rigid2 (&relative_places)[2],
-                         const Double2 (&coming)[2], const RelativeMotion& relative, Passage& passage) {
-    const Double2 half[2] = {a.half_lanes(), b.half_lanes()};
-    const Double2 place[2] = {lanes::double2(relative_places[0].x, relative_places[0].y),
-                              lanes::double2(relative_places[1].x, relative_places[1].y)};
-    return passage_of_boxes(half, lanes::double2(relative_places[0].cos, relative_places[0].sin), place, coming,
-                            relative.radius, relative.certain_depth(), relative.max_fraction, passage);
+inline bool find_passage(const CorePair<BoxCore>& pair, const Double2 (&coming)[2], const RelativeMotion& relative,
+                         Passage& passage) {
+    const Double2 half[2] = {pair.shape(0).half(), pair.shape(1).half()};
+    const Double2 place[2] = {pair.seen_from(0).position, pair.seen_from(1).position};
+    return passage_of_boxes(half, pair.seen_from(0).turn(), place, coming, relative.radius, relative.certain_depth(),
+                            relative.max_fraction, passage);
 }
 
 /// Whether two shapes that touch at the time `enters` do so within the motion, if they approach by `closing` per unit
@@ -137,34 +96,40 @@ inline void write(double time, const RelativeMotion& relative, Double2 point, Do
 template <class Core>
 class EdgeImpact {
 public:
-    EdgeImpact(const Moving<Core>& reference, const Moving<Core>& other, const Passage& passage,
+    EdgeImpact(const CorePair<Core>& pair, const Double2 (&motions)[2], const Passage& passage,
                const RelativeMotion& relative)
-        : reference_(reference), other_(other), passage_(passage), relative_(relative) {}
+        : reference_(pair.shape(passage.of)),
+          other_(pair.shape(1 - passage.of)),
+          reference_motion_(motions[passage.of]),
+          other_motion_(motions[1 - passage.of]),
+          passage_(passage),
+          relative_(relative) {}
 
     ClosedFormAnswer report(std::optional<Hit<2>>& result) const {
-        const Placed<Core>& shape = reference_.shape;
-        const Double2 velocity = other_.motion - reference_.motion;
-        const Double2 out = shape.place.vector(shape.core.normal(passage_.side)) * shape.place.scale;
+        const Core &reference = reference_, &other = other_;
+        const Double2 velocity = other_motion_ - reference_motion_;
+        const Double2 out = reference_.place().vector(reference.normal(passage_.side));
         const double closing = -lanes::dot(out, velocity)[0];
         if (!(closing > min_slope * relative_.length)) return ClosedFormAnswer::unknown;
         const ClosedFormAnswer within_motion = is_within_motion(passage_.enters, closing, relative_);
         if (within_motion != ClosedFormAnswer::yes) return within_motion;
         const double time = std::min(passage_.enters, relative_.max_fraction);
 
-        const Double2 offset = other_.offset(passage_.corner);
-        const Double2 between = (other_.shape.place.position - shape.place.position) + velocity * lanes::double2(time);
-        const Double2 local_corner = reference_.to_local(offset + between);
-        const EdgeRegion region = shape.core.voronoi_region(passage_.side, local_corner);
+        const Double2 offset = other_.place().vector(other_.corner(passage_.corner));
+        const Double2 between =
+            (other_.place().position - reference_.place().position) + velocity * lanes::double2(time);
+        const Double2 local_corner = reference_.place().back(offset + between);
+        const EdgeRegion region = reference.voronoi_region(passage_.side, local_corner);
         if (region == EdgeRegion::within) {
             if (relative_.radius > 0 && !enters_balls(closing, relative_)) return ClosedFormAnswer::unknown;
             report_at_vertex(time, offset, out, result.emplace());
             return ClosedFormAnswer::yes;
         }
         const bool before = region == EdgeRegion::before_start;
-        const std::uint32_t end = before ? passage_.side : shape.core.after(passage_.side);
-        const std::uint32_t next =
-            before ? other_.shape.core.before(passage_.corner) : other_.shape.core.after(passage_.corner);
-        if (!end_touches(local_corner, end, reference_.to_local(other_.offset(next) + between)))
+        const std::uint32_t end = before ? passage_.side : reference.after(passage_.side);
+        const std::uint32_t next = before ? other.before(passage_.corner) : other.after(passage_.corner);
+        if (!end_touches(local_corner, end,
+                         reference_.place().back(other_.place().vector(other_.corner(next)) + between)))
             return relative_.radius > 0 ? report_round(end, result) : ClosedFormAnswer::unknown;
         if (relative_.radius > 0 && !enters_balls(closing, relative_)) return ClosedFormAnswer::unknown;
         report_at_end(time, end, next, out, result.emplace());
@@ -178,23 +143,23 @@ private:
         return out * lanes::double2(towards_b[passage_.of]);
     }
     /// Names the feature of B by its two vertices, or one vertex given twice.
-    static void name(const Moving<Core>& b, std::uint32_t i, std::uint32_t j, Hit<2>& hit) {
-        name_end_or_edge<2>({b.shape.core.number(i), b.shape.core.number(j)}, 0, hit.feature);
+    static void name(const Core& b, std::uint32_t i, std::uint32_t j, Hit<2>& hit) {
+        name_end_or_edge<2>({b.number(i), b.number(j)}, 0, hit.feature);
     }
 
     void report_at_vertex(double time, Double2 offset, Double2 out, Hit<2>& hit) const {
-        const Double2 point = other_.shape.place.position + offset + other_.motion * lanes::double2(time);
-        write(time, relative_, point - out * lanes::double2(other_.radius), from_a(out), hit);
+        const Double2 point = other_.place().position + offset + other_motion_ * lanes::double2(time);
+        write(time, relative_, point - out * lanes::double2(other_.radius()), from_a(out), hit);
         if (a_is_reference())
             name(other_, passage_.corner, passage_.corner, hit);
         else
-            name(reference_, passage_.side, reference_.shape.core.after(passage_.side), hit);
+            name(reference_, passage_.side, reference_.after(passage_.side), hit);
     }
 
     /// If two faces meet, the vertex found may lie beyond an end of the edge. Then that end touches the edge from the
     /// vertex to the next one.
     bool end_touches(Double2 corner, std::uint32_t end, Double2 next) const {
-        const Core& core = reference_.shape.core;
+        const Core& core = reference_;
         const Double2 out = core.normal(passage_.side), along = lanes::swapped(out) * Double2{-1, 1};
         const double corner_along = lanes::dot(along, corner - core.corner(end))[0],
                      next_along = lanes::dot(along, next - core.corner(end))[0];
@@ -202,9 +167,9 @@ private:
         return part >= 0 && part <= 1 && part * rises <= 0.25 * relative_.tolerances.touch;
     }
     void report_at_end(double time, std::uint32_t end, std::uint32_t next, Double2 out, Hit<2>& hit) const {
-        const Double2 point =
-            reference_.shape.place.position + reference_.offset(end) + reference_.motion * lanes::double2(time);
-        write(time, relative_, point + out * lanes::double2(reference_.radius), from_a(out), hit);
+        const Double2 point = reference_.place().position + reference_.place().vector(reference_.corner(end)) +
+                              reference_motion_ * lanes::double2(time);
+        write(time, relative_, point + out * lanes::double2(reference_.radius()), from_a(out), hit);
         if (a_is_reference())
             name(other_, passage_.corner, next, hit);
         else
@@ -214,105 +179,53 @@ private:
     /// Beyond the end of an edge the shapes are round around two vertices. The answer is proven if these are the
     /// farthest along the normal: a plane separates the shapes until then, or all the time.
     ClosedFormAnswer report_round(std::uint32_t end, std::optional<Hit<2>>& result) const {
-        const Double2 end_offset = reference_.offset(end), corner_offset = other_.offset(passage_.corner);
-        const Double2 between =
-            (other_.shape.place.position - reference_.shape.place.position) + (corner_offset - end_offset);
+        const Double2 end_offset = reference_.place().vector(reference_.corner(end)),
+                      corner_offset = other_.place().vector(other_.corner(passage_.corner));
+        const Double2 between = (other_.place().position - reference_.place().position) + (corner_offset - end_offset);
         RoundImpact impact;
-        const ClosedFormAnswer found = find_round_impact(between, reference_.motion - other_.motion, relative_, impact);
+        const ClosedFormAnswer found = find_round_impact(between, reference_motion_ - other_motion_, relative_, impact);
         if (found == ClosedFormAnswer::unknown ||
-            !reference_.shape.core.is_farthest(end, reference_.to_local(impact.normal)) ||
-            !other_.shape.core.is_farthest(passage_.corner, other_.to_local(-impact.normal)))
+            !reference_.is_farthest(end, reference_.place().back(impact.normal)) ||
+            !other_.is_farthest(passage_.corner, other_.place().back(-impact.normal)))
             return ClosedFormAnswer::unknown;
         if (found == ClosedFormAnswer::no) return found;
         const ClosedFormAnswer within_motion = is_within_motion(impact.enters, impact.closing, relative_);
         if (within_motion != ClosedFormAnswer::yes) return within_motion;
         const double time = std::min(impact.enters, relative_.max_fraction);
-        const Double2 point = reference_.shape.place.position + end_offset + reference_.motion * lanes::double2(time);
+        const Double2 point = reference_.place().position + end_offset + reference_motion_ * lanes::double2(time);
         Hit<2>& hit = result.emplace();
-        write(time, relative_, point + impact.normal * lanes::double2(reference_.radius), from_a(impact.normal), hit);
+        write(time, relative_, point + impact.normal * lanes::double2(reference_.radius()), from_a(impact.normal), hit);
         const std::uint32_t of_b = a_is_reference() ? passage_.corner : end;
         name(a_is_reference() ? other_ : reference_, of_b, of_b, hit);
         return ClosedFormAnswer::yes;
     }
 
-    const Moving<Core>&reference_, &other_;
+    const Core &reference_, &other_;
+    Double2 reference_motion_, other_motion_;
     const Passage& passage_;
     const RelativeMotion& relative_;
 };
 
 template <class Core>
-ClosedFormAnswer sweep_moving(Moving<Core>& a, Moving<Core>& b, std::optional<Hit<2>>& result) {
-    if (!set_scales(a.shape.place, b.shape.place)) return ClosedFormAnswer::unknown;
-    Rigid2 relative_places[2];
-    set_relative_places(a.shape, b.shape, relative_places);
+ClosedFormAnswer sweep_cores(const PlacedPolygon& polygon_a, const PlacedPolygon& polygon_b,
+                             const Double2 (&motions)[2], std::optional<Hit<2>>& result) {
+    CorePair<Core> pair(polygon_a, polygon_b);
+    pair.set_relative_places();
+    const Core &a = pair.shape(0), &b = pair.shape(1);
     RelativeMotion relative;
-    relative.motion = a.motion - b.motion;
+    relative.motion = motions[0] - motions[1];
     relative.length = std::sqrt(lanes::dot(relative.motion, relative.motion)[0]);
-    relative.radius = a.radius + b.radius;
+    relative.radius = a.radius() + b.radius();
     // Beyond this length of motion nothing can be hit.
-    const double far = 2 * (std::abs(relative_places[0].x) + std::abs(relative_places[0].y) + a.shape.core.size() +
-                            b.shape.core.size() + std::abs(relative.radius));
+    const double far = 2 * (pair.scale() + std::abs(relative.radius));
     if (!(relative.length > 0 && relative.length < infinity && far < infinity)) return ClosedFormAnswer::unknown;
     relative.max_fraction = relative.length > far ? far / relative.length : 1;
-    relative.tolerances =
-        SweepTolerances({a.shape.core.extent() + a.radius, 0}, {b.shape.core.extent() + b.radius, 0}, far);
-    const Double2 coming[2] = {a.to_local(relative.motion), b.to_local(-relative.motion)};
+    relative.tolerances = SweepTolerances({a.extent() + a.radius(), 0}, {b.extent() + b.radius(), 0}, far);
+    const Double2 coming[2] = {a.place().back(relative.motion), b.place().back(-relative.motion)};
     Passage passage;
-    if (!find_passage(a.shape.core, b.shape.core, relative_places, coming, relative, passage))
-        return ClosedFormAnswer::no;
+    if (!find_passage(pair, coming, relative, passage)) return ClosedFormAnswer::no;
     if (!passage.penetrates()) return ClosedFormAnswer::unknown;
-    return passage.of == 0 ? EdgeImpact<Core>(a, b, passage, relative).report(result)
-                           : EdgeImpact<Core>(b, a, passage, relative).report(result);
-}
-
-template <class Core>
-ClosedFormAnswer sweep_cores(const ShapeRef<2>& given_a, const Vec2& motion_a, const ShapeRef<2>& given_b,
-                             const Vec2& motion_b, std::optional<Hit<2>>& result) {
-    Moving<Core> a(given_a, motion_a), b(given_b, motion_b);
-    return sweep_moving(a, b, result);
-}
-
-/// A box of width 0 around a segment, or of size 0 around a point.
-void set_degenerate_box(const DVec<2>& a, const DVec<2>& b, PlacedPolygon& polygon) {
-    const DVec<2> middle = 0.5 * (a + b), along = normalized(b - a);
-    polygon.place = {along.x, along.y, middle.x, middle.y};
-    polygon.set_box({0.5 * length(b - a), 0});
-}
-
-bool set_moving_polygon(const ShapeRef<2>& given, PlacedPolygon& polygon) {
-    polygon.radius = 0;
-    switch (given.kind) {
-        case ShapeKind::ball: {
-            const DVec<2> center = place_of(given).point(DVec<2>(given.as<Circle>().center));
-            set_degenerate_box(center, center, polygon);
-            polygon.radius = static_cast<double>(given.as<Circle>().radius);
-            return true;
-        }
-        case ShapeKind::capsule: {
-            const Capsule2& capsule = given.as<Capsule2>();
-            set_degenerate_box(place_of(given).point(DVec<2>(capsule.a)), place_of(given).point(DVec<2>(capsule.b)),
-                               polygon);
-            polygon.radius = static_cast<double>(capsule.radius);
-            return true;
-        }
-        case ShapeKind::segment: {
-            const Segment2& segment = given.as<Segment2>();
-            set_degenerate_box(place_of(given).point(DVec<2>(segment.a)), place_of(given).point(DVec<2>(segment.b)),
-                               polygon);
-            return true;
-        }
-        default:
-            return set_placed_polygon(given, polygon);
-    }
-}
-
-ClosedFormAnswer sweep_placed_polygons(const ShapeRef<2>& given_a, const Vec2& motion_a, const ShapeRef<2>& given_b,
-                                       const Vec2& motion_b, std::optional<Hit<2>>& result) {
-    PlacedPolygon polygon_a, polygon_b;
-    if (!set_moving_polygon(given_a, polygon_a) || !set_moving_polygon(given_b, polygon_b))
-        return ClosedFormAnswer::unknown;
-    Moving<PlacedPolygonCore> a(given_a.kind, polygon_a, motion_a), b(given_b.kind, polygon_b, motion_b);
-    return sweep_moving(a, b, result);
+    return EdgeImpact<Core>(pair, motions, passage, relative).report(result);
 }
 
 inline Double2 center_of(const ShapeRef<2>& given) {
@@ -357,10 +270,15 @@ ClosedFormAnswer sweep_circles(const ShapeRef<2>& given_a, const Vec2& motion_a,
 
 ClosedFormAnswer closed_form_sweep(const ShapeRef<2>& a, const Vec2& motion_a, const ShapeRef<2>& b,
                                    const Vec2& motion_b, std::optional<Hit<2>>& result) {
-    if (is_polygon(a) && is_polygon(b)) return sweep_cores<PolygonCore>(a, motion_a, b, motion_b, result);
-    if (is_box(a) && is_box(b)) return sweep_cores<BoxCore>(a, motion_a, b, motion_b, result);
     if (a.kind == ShapeKind::ball && b.kind == ShapeKind::ball) return sweep_circles(a, motion_a, b, motion_b, result);
-    return sweep_placed_polygons(a, motion_a, b, motion_b, result);
+    PlacedPolygon polygon_a, polygon_b;
+    if (!set_placed_polygon(a, polygon_a) || !set_placed_polygon(b, polygon_b)) return ClosedFormAnswer::unknown;
+    const Double2 motions[2] = {lanes::loaded(&motion_a.x), lanes::loaded(&motion_b.x)};
+    if (polygon_a.core != PlacedPolygon::Core::polygon && polygon_b.core != PlacedPolygon::Core::polygon)
+        return sweep_cores<BoxCore>(polygon_a, polygon_b, motions, result);
+    polygon_a.make_rows();
+    polygon_b.make_rows();
+    return sweep_cores<PolygonCore>(polygon_a, polygon_b, motions, result);
 }
 
 }  // namespace abut::detail
