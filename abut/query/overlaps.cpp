@@ -32,8 +32,8 @@ bool overlaps(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>& opt
 template <int D>
 bool overlaps(const ShapeRef<D>& a, const ShapeRef<D>& b, const QueryOptions<D>& options) {
     if (options.trace == nullptr) {
-        const ClosedFormAnswer answer = closed_form_overlap(a, b, options.cache);
-        if (answer != ClosedFormAnswer::unknown) return answer == ClosedFormAnswer::yes;
+        const PairAnswer answer = closed_form_overlap(a, b, options.cache);
+        if (answer != PairAnswer::unknown) return answer == PairAnswer::yes;
     }
     return overlaps(convex_of(a), convex_of(b), options);
 }

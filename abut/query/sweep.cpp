@@ -205,7 +205,7 @@ template <>
 std::optional<Hit<2>> sweep(const ShapeRef<2>& a, const Vec2& motion_a, const ShapeRef<2>& b, const Vec2& motion_b,
                             const QueryOptions<2>& options) {
     std::optional<Hit<2>> result;
-    if (options.trace != nullptr || closed_form_sweep(a, motion_a, b, motion_b, result) == ClosedFormAnswer::unknown)
+    if (options.trace != nullptr || closed_form_sweep(a, motion_a, b, motion_b, result) == PairAnswer::unknown)
         sweep_views(a, motion_a, b, motion_b, options, result);
     return result;
 }

@@ -38,23 +38,23 @@ class Direct {
 public:
     Direct(const Convex<2>& a, const Convex<2>& b) : a_(a), b_(b) {}
 
-    PairAnswer2 distance(Cache* cache, SignedDistance<2>& result) const {
+    PairAnswer distance(Cache* cache, SignedDistance<2>& result) const {
         return with_polygons([&](PlacedPolygon& a, PlacedPolygon& b) {
             ClosestFeatures2 closest;
-            const PairAnswer2 answer = pair2_closest(a, b, cache, closest);
-            if (answer == PairAnswer2::within) write(closest, a, b, result);
+            const PairAnswer answer = pair2_closest(a, b, cache, closest);
+            if (answer == PairAnswer::yes) write(closest, a, b, result);
             return answer;
         });
     }
-    PairAnswer2 overlap(Cache* cache) const {
+    PairAnswer overlap(Cache* cache) const {
         return with_polygons([&](PlacedPolygon& a, PlacedPolygon& b) { return pair2_within(a, b, 0, cache); });
     }
-    PairAnswer2 contact(SignedDistance<2>& distance, Manifold<2>& manifold) const {
+    PairAnswer contact(SignedDistance<2>& distance, Manifold<2>& manifold) const {
         return with_polygons([&](PlacedPolygon& a, PlacedPolygon& b) {
             ClosestFeatures2 closest;
             ContactLanes points;
-            const PairAnswer2 answer = pair2_contact(a, b, 0, 0, nullptr, closest, points);
-            if (answer != PairAnswer2::within) return answer;
+            const PairAnswer answer = pair2_contact(a, b, 0, 0, nullptr, closest, points);
+            if (answer != PairAnswer::yes) return answer;
             write(closest, a, b, distance);
             write(points, manifold);
             return answer;
@@ -63,9 +63,9 @@ public:
 
 private:
     template <class Query>
-    PairAnswer2 with_polygons(const Query& query) const {
+    PairAnswer with_polygons(const Query& query) const {
         PlacedPolygon a, b;
-        return set_placed_polygon(a_, a) && set_placed_polygon(b_, b) ? query(a, b) : PairAnswer2::unknown;
+        return set_placed_polygon(a_, a) && set_placed_polygon(b_, b) ? query(a, b) : PairAnswer::unknown;
     }
 
     const Convex<2>&a_, &b_;
@@ -76,7 +76,7 @@ void expect_agreement(const Convex<2>& a, const Convex<2>& b, double tolerance, 
     ++tally.pairs;
     const Direct method(a, b);
     SignedDistance<2> direct;
-    if (method.distance(nullptr, direct) == PairAnswer2::unknown) return;
+    if (method.distance(nullptr, direct) == PairAnswer::unknown) return;
     ++tally.answered;
     const SignedDistance<2> searched = signed_distance(a, b);
     tally.overlapping += searched.distance <= 0 ? 1 : 0;
@@ -84,15 +84,15 @@ void expect_agreement(const Convex<2>& a, const Convex<2>& b, double tolerance, 
     EXPECT_NEAR(length(direct.normal), 1, 1e-12);
     EXPECT_TRUE(certify(View<2>(a), View<2>(b), as_closest(direct)));
 
-    const PairAnswer2 near = method.overlap(nullptr);
+    const PairAnswer near = method.overlap(nullptr);
     const bool certain = std::abs(searched.distance) > tolerance;
     if (certain) {
-        EXPECT_EQ(near, searched.distance <= 0 ? PairAnswer2::within : PairAnswer2::beyond);
+        EXPECT_EQ(near, searched.distance <= 0 ? PairAnswer::yes : PairAnswer::no);
     }
     Cache cache;
     for (int time = 0; time < 3; ++time) {
         SignedDistance<2> again;
-        ASSERT_NE(method.distance(&cache, again), PairAnswer2::unknown);
+        ASSERT_NE(method.distance(&cache, again), PairAnswer::unknown);
         EXPECT_NEAR(again.distance, direct.distance, 1e-3 * tolerance);
         if (certain) {
             EXPECT_EQ(method.overlap(&cache), near);
@@ -104,7 +104,7 @@ void expect_agreement(const Convex<2>& a, const Convex<2>& b, double tolerance, 
 void expect_same_contact(const Convex<2>& a, const Convex<2>& b, double tolerance) {
     SignedDistance<2> distance;
     Manifold<2> direct;
-    if (Direct(a, b).contact(distance, direct) != PairAnswer2::within) return;
+    if (Direct(a, b).contact(distance, direct) != PairAnswer::yes) return;
     const Manifold<2> expected = manifold(a, b, distance, 0);
     double deepest = 0;
     for (std::size_t i = 0; i < direct.count; ++i) deepest = std::max(deepest, direct.points[i].depth);

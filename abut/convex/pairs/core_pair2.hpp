@@ -5,16 +5,11 @@
 
 #include <abut/convex/gjk/cache.hpp>
 #include <abut/convex/pairs/edge_gaps2.hpp>
+#include <abut/convex/pairs/pair_answer.hpp>
 #include <abut/convex/pairs/point2.hpp>
 #include <abut/convex/pairs/voronoi2.hpp>
 
 namespace abut::detail {
-
-enum class PairAnswer2 : std::uint8_t {
-    beyond,   ///< the distance is above the reach
-    within,   ///< the distance is at most the reach
-    unknown,  ///< only the general algorithms can decide
-};
 
 /// The closest features of two cores, or those of the minimum penetration, in the world: an edge of one, the reference,
 /// and a corner of the other; or two corners.
@@ -49,32 +44,32 @@ inline bool is_finite(double number) {
 
 /// A polygon, which is A (`of` = 0) or B, and a point.
 template <class Core>
-[[gnu::always_inline]] inline PairAnswer2 closest_to_point(const Core& shape, Double2 point, std::uint32_t of,
-                                                           double reach, ClosestFeatures2& closest) {
+[[gnu::always_inline]] inline PairAnswer closest_to_point(const Core& shape, Double2 point, std::uint32_t of,
+                                                          double reach, ClosestFeatures2& closest) {
     PointLocation found;
     const bool near = locate(shape, shape.place().back(point - shape.place().position), reach, found);
-    if (!is_finite(found.gap)) return PairAnswer2::unknown;
-    if (!near) return PairAnswer2::beyond;
+    if (!is_finite(found.gap)) return PairAnswer::unknown;
+    if (!near) return PairAnswer::no;
     closest.of = of;
     closest.set_corners(found.first, found.second, 0);
     closest.gap = found.gap;
     closest.normal = shape.place().vector(found.normal);
     closest.on_other = point;
     closest.on_reference = point - closest.normal * lanes::double2(found.gap);
-    return PairAnswer2::within;
+    return PairAnswer::yes;
 }
 
 /// Two points.
-inline PairAnswer2 closest_points(Double2 a, Double2 b, double reach, ClosestFeatures2& closest) {
+inline PairAnswer closest_points(Double2 a, Double2 b, double reach, ClosestFeatures2& closest) {
     const Double2 between = b - a, square = lanes::dot(between, between), gap = lanes::root(square);
-    if (!(gap[0] > 0 && is_finite(gap[0]))) return PairAnswer2::unknown;
+    if (!(gap[0] > 0 && is_finite(gap[0]))) return PairAnswer::unknown;
     closest.of = 0;
     closest.set_corners(0, 0, 0);
     closest.gap = gap[0];
     closest.normal = between * (gap * (Double2{1, 1} / square));
     closest.on_reference = a;
     closest.on_other = b;
-    return gap[0] > reach ? PairAnswer2::beyond : PairAnswer2::within;
+    return gap[0] > reach ? PairAnswer::no : PairAnswer::yes;
 }
 
 /// Two cores of one kind, neither of which is a point.
@@ -105,34 +100,34 @@ public:
     double scale() const { return scale_; }
 
     /// The closest features, if the gap between the cores is at most `reach`.
-    [[gnu::always_inline]] inline PairAnswer2 find_closest(double reach, Cache* cache, ClosestFeatures2& closest) {
+    [[gnu::always_inline]] inline PairAnswer find_closest(double reach, Cache* cache, ClosestFeatures2& closest) {
         const bool all = !is_finite(reach);
         if (cache != nullptr && (all ? closest_from_cache(*cache, closest) : separated_by_cache(*cache, reach)))
-            return all ? PairAnswer2::within : PairAnswer2::beyond;
-        if (!is_finite(scale_)) return PairAnswer2::unknown;
+            return all ? PairAnswer::yes : PairAnswer::no;
+        if (!is_finite(scale_)) return PairAnswer::unknown;
         set_relative_places();
         EdgeGap widest;
         find_widest_gap(shapes_[0], shapes_[1], seen_, reach, 1e-14 * scale_, widest);
         if (widest.gap > reach) {
             if (cache != nullptr) store_edge(widest, *cache);
-            return PairAnswer2::beyond;
+            return PairAnswer::no;
         }
         return find_from_edge(widest, reach, cache, closest);
     }
 
     /// Whether the gap between the cores is at most `reach`.
-    [[gnu::always_inline]] inline PairAnswer2 within(double reach, Cache* cache) {
-        if (cache != nullptr && separated_by_cache(*cache, reach)) return PairAnswer2::beyond;
+    [[gnu::always_inline]] inline PairAnswer within(double reach, Cache* cache) {
+        if (cache != nullptr && separated_by_cache(*cache, reach)) return PairAnswer::no;
         // Bounding circles around the positions.
         const double far = reach + shapes_[0].outer_radius() + shapes_[1].outer_radius();
-        if (!is_finite(scale_)) return PairAnswer2::unknown;
-        if (lanes::dot(between_, between_)[0] > far * far) return PairAnswer2::beyond;
+        if (!is_finite(scale_)) return PairAnswer::unknown;
+        if (lanes::dot(between_, between_)[0] > far * far) return PairAnswer::no;
         set_relative_places();
         EdgeGap widest;
         find_widest_gap(shapes_[0], shapes_[1], seen_, reach, 1e-14 * scale_, widest);
         if (widest.gap <= 0 || widest.gap > reach) {
             if (cache != nullptr) store_edge(widest, *cache);
-            return widest.gap > 0 ? PairAnswer2::beyond : PairAnswer2::within;
+            return widest.gap > 0 ? PairAnswer::no : PairAnswer::yes;
         }
         ClosestFeatures2 closest;
         return find_from_edge(widest, reach, cache, closest);
@@ -150,16 +145,16 @@ private:
     }
 
     /// From the edge with the widest gap: the other's lowest corner is in front of it, or past one of its ends.
-    [[gnu::always_inline]] inline PairAnswer2 find_from_edge(const EdgeGap& widest, double reach, Cache* cache,
-                                                             ClosestFeatures2& closest) const {
+    [[gnu::always_inline]] inline PairAnswer find_from_edge(const EdgeGap& widest, double reach, Cache* cache,
+                                                            ClosestFeatures2& closest) const {
         const EdgeRegion region =
             set_edge(widest.of, widest.side, widest.corner,
                      seen_[widest.of].point(other_than(widest.of).corner(widest.corner)), closest);
         const bool found = region == EdgeRegion::within || (closest.gap > 0 ? find_corner(widest, region, closest)
                                                                             : find_behind_end(widest, region, closest));
-        if (!found) return PairAnswer2::unknown;
+        if (!found) return PairAnswer::unknown;
         if (cache != nullptr) store(closest, *cache);
-        return closest.gap > reach ? PairAnswer2::beyond : PairAnswer2::within;
+        return closest.gap > reach ? PairAnswer::no : PairAnswer::yes;
     }
 
     /// An edge of one shape and a corner of the other, and in which Voronoi region of the edge the corner is,

@@ -7,7 +7,7 @@ constexpr double unlimited = std::numeric_limits<double>::infinity();
 
 /// Calls query(pair) with the pair's cores: without rows if neither has any.
 template <class Query>
-inline PairAnswer2 with_cores(PlacedPolygon& a, PlacedPolygon& b, const Query& query) {
+inline PairAnswer with_cores(PlacedPolygon& a, PlacedPolygon& b, const Query& query) {
     if (a.core != PlacedPolygon::Core::polygon && b.core != PlacedPolygon::Core::polygon)
         return query(CorePair<BoxCore>(a, b));
     a.make_rows();
@@ -25,14 +25,14 @@ inline void set_numbers(const Core& a, const Core& b, ClosestFeatures2& closest)
 
 /// Pairs of which one is a point. If the answer is to be `exact`, a closest point at a corner is exactly there.
 template <bool exact>
-[[gnu::always_inline]] inline PairAnswer2 closest_of_points(const PlacedPolygon& a, const PlacedPolygon& b,
-                                                            double reach, ClosestFeatures2& closest) {
+[[gnu::always_inline]] inline PairAnswer closest_of_points(const PlacedPolygon& a, const PlacedPolygon& b, double reach,
+                                                           ClosestFeatures2& closest) {
     if (a.is_point() && b.is_point()) return closest_points(a.place.position, b.place.position, reach, closest);
     const std::uint32_t of = a.is_point() ? 1 : 0;
     const PlacedPolygon &shape = of == 0 ? a : b, &point = of == 0 ? b : a;
     const auto find = [&](const auto& core) {
-        const PairAnswer2 answer = closest_to_point(core, point.place.position, of, reach, closest);
-        if (answer != PairAnswer2::within) return answer;
+        const PairAnswer answer = closest_to_point(core, point.place.position, of, reach, closest);
+        if (answer != PairAnswer::yes) return answer;
         std::uint32_t(&corners)[2] = closest.corners[of];
         if (exact && corners[0] == corners[1]) closest.on_reference = shape.place.point(core.corner(corners[0]));
         for (std::uint32_t& corner : corners) corner = core.number(corner);
@@ -57,9 +57,9 @@ inline void set_only_point(const PlacedPolygon& a, const PlacedPolygon& b, const
 
 }  // namespace
 
-PairAnswer2 pair2_within(PlacedPolygon& a, PlacedPolygon& b, double reach, Cache* cache) {
+PairAnswer pair2_within(PlacedPolygon& a, PlacedPolygon& b, double reach, Cache* cache) {
     const double reach_of_cores = reach + (a.radius + b.radius);
-    if (!is_finite(a.radius + b.radius)) return PairAnswer2::unknown;
+    if (!is_finite(a.radius + b.radius)) return PairAnswer::unknown;
     if (a.is_point() || b.is_point()) {
         ClosestFeatures2 closest;
         return closest_of_points<false>(a, b, reach_of_cores, closest);
@@ -67,28 +67,28 @@ PairAnswer2 pair2_within(PlacedPolygon& a, PlacedPolygon& b, double reach, Cache
     return with_cores(a, b, [&](auto pair) { return pair.within(reach_of_cores, cache); });
 }
 
-PairAnswer2 pair2_closest(PlacedPolygon& a, PlacedPolygon& b, Cache* cache, ClosestFeatures2& closest) {
-    if (!is_finite(a.radius + b.radius)) return PairAnswer2::unknown;
+PairAnswer pair2_closest(PlacedPolygon& a, PlacedPolygon& b, Cache* cache, ClosestFeatures2& closest) {
+    if (!is_finite(a.radius + b.radius)) return PairAnswer::unknown;
     if (a.is_point() || b.is_point()) return closest_of_points<true>(a, b, unlimited, closest);
     return with_cores(a, b, [&](auto pair) {
-        const PairAnswer2 answer = pair.find_closest(unlimited, cache, closest);
-        if (answer == PairAnswer2::within) set_numbers(pair.shape(0), pair.shape(1), closest);
+        const PairAnswer answer = pair.find_closest(unlimited, cache, closest);
+        if (answer == PairAnswer::yes) set_numbers(pair.shape(0), pair.shape(1), closest);
         return answer;
     });
 }
 
-PairAnswer2 pair2_contact(PlacedPolygon& a, PlacedPolygon& b, double reach, double margin, Cache* cache,
-                          ClosestFeatures2& closest, ContactLanes& points) {
+PairAnswer pair2_contact(PlacedPolygon& a, PlacedPolygon& b, double reach, double margin, Cache* cache,
+                         ClosestFeatures2& closest, ContactLanes& points) {
     const double reach_of_cores = reach + (a.radius + b.radius);
-    if (!is_finite(a.radius + b.radius)) return PairAnswer2::unknown;
+    if (!is_finite(a.radius + b.radius)) return PairAnswer::unknown;
     if (a.is_point() || b.is_point()) {
-        const PairAnswer2 answer = closest_of_points<false>(a, b, reach_of_cores, closest);
-        if (answer == PairAnswer2::within) set_only_point(a, b, closest, points);
+        const PairAnswer answer = closest_of_points<false>(a, b, reach_of_cores, closest);
+        if (answer == PairAnswer::yes) set_only_point(a, b, closest, points);
         return answer;
     }
     return with_cores(a, b, [&](auto pair) {
-        const PairAnswer2 answer = pair.find_closest(reach_of_cores, cache, closest);
-        if (answer != PairAnswer2::within) return answer;
+        const PairAnswer answer = pair.find_closest(reach_of_cores, cache, closest);
+        if (answer != PairAnswer::yes) return answer;
         find_contact_points(pair, closest, margin, points);
         set_numbers(pair.shape(0), pair.shape(1), closest);
         return answer;

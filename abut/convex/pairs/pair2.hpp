@@ -12,14 +12,14 @@ namespace abut::detail {
 // A polygon may get rows, and its corners new numbers. The corners of the answers have the numbers of the shapes.
 
 /// Whether the distance of two shapes is at most `reach`.
-PairAnswer2 pair2_within(PlacedPolygon& a, PlacedPolygon& b, double reach, Cache* cache);
+PairAnswer pair2_within(PlacedPolygon& a, PlacedPolygon& b, double reach, Cache* cache);
 
 /// The closest features of the cores, unless they are unknown.
-PairAnswer2 pair2_closest(PlacedPolygon& a, PlacedPolygon& b, Cache* cache, ClosestFeatures2& closest);
+PairAnswer pair2_closest(PlacedPolygon& a, PlacedPolygon& b, Cache* cache, ClosestFeatures2& closest);
 
 /// The contact if the distance is at most `reach`; its points have gaps of at most `margin`.
-PairAnswer2 pair2_contact(PlacedPolygon& a, PlacedPolygon& b, double reach, double margin, Cache* cache,
-                          ClosestFeatures2& closest, ContactLanes& points);
+PairAnswer pair2_contact(PlacedPolygon& a, PlacedPolygon& b, double reach, double margin, Cache* cache,
+                         ClosestFeatures2& closest, ContactLanes& points);
 
 inline void write(const ClosestFeatures2& closest, const PlacedPolygon& a, const PlacedPolygon& b,
                   SignedDistance<2>& result) {

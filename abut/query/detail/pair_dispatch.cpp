@@ -51,11 +51,11 @@ struct PlacedPolygons {
 template <>
 bool part_overlaps(const Convex<2>& a, const Convex<2>& b, const SearchOptions<2>& options) {
     PlacedPolygons polygons(a, b);
-    const PairAnswer2 answer =
-        polygons.known ? pair2_within(polygons.a, polygons.b, 0, options.cache) : PairAnswer2::unknown;
-    if (answer == PairAnswer2::unknown) return any_overlap(a, b, options);
+    const PairAnswer answer =
+        polygons.known ? pair2_within(polygons.a, polygons.b, 0, options.cache) : PairAnswer::unknown;
+    if (answer == PairAnswer::unknown) return any_overlap(a, b, options);
     if (options.trace != nullptr) any_overlap<2>(a, b, {nullptr, options.trace});
-    return answer == PairAnswer2::within;
+    return answer == PairAnswer::yes;
 }
 
 template <>
@@ -63,7 +63,7 @@ SignedDistance<2> part_distance(const Convex<2>& a, const Convex<2>& b, const Se
     SignedDistance<2> result;
     PlacedPolygons polygons(a, b);
     ClosestFeatures2 closest;
-    if (!polygons.known || pair2_closest(polygons.a, polygons.b, options.cache, closest) == PairAnswer2::unknown) {
+    if (!polygons.known || pair2_closest(polygons.a, polygons.b, options.cache, closest) == PairAnswer::unknown) {
         any_distance(a, b, options, result);
         return result;
     }
@@ -81,11 +81,11 @@ bool part_distance_within(const Convex<2>& a, const Convex<2>& b, double reach, 
     PlacedPolygons polygons(a, b);
     ClosestFeatures2 closest;
     ContactLanes points;
-    const PairAnswer2 answer =
-        polygons.known ? pair2_contact(polygons.a, polygons.b, reach, margin, options.cache, closest, points)
-                       : PairAnswer2::unknown;
-    if (answer == PairAnswer2::unknown) return any_distance_within(a, b, reach, options, contact);
-    if (answer == PairAnswer2::within) {
+    const PairAnswer answer = polygons.known
+                                  ? pair2_contact(polygons.a, polygons.b, reach, margin, options.cache, closest, points)
+                                  : PairAnswer::unknown;
+    if (answer == PairAnswer::unknown) return any_distance_within(a, b, reach, options, contact);
+    if (answer == PairAnswer::yes) {
         write(closest, polygons.a, polygons.b, contact.distance);
         write(points, contact.manifold);
     }
@@ -94,7 +94,7 @@ bool part_distance_within(const Convex<2>& a, const Convex<2>& b, double reach, 
         if (any_distance_within<2>(a, b, reach, {nullptr, options.trace}, searched))
             add_points<2>(a, b, margin, {nullptr, options.trace}, searched);
     }
-    return answer == PairAnswer2::within;
+    return answer == PairAnswer::yes;
 }
 
 template <int D>

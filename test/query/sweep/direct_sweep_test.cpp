@@ -35,7 +35,7 @@ void compare(const A& a, const Vec2& motion_a, const B& b, const Vec2& motion_b,
     const auto direct = sweep(a, motion_a, b, motion_b), of_views = sweep(view_a, motion_a, view_b, motion_b);
     ++counts.pairs;
     std::optional<Hit<2>> ignored;
-    if (closed_form_sweep(shape_ref(a), motion_a, shape_ref(b), motion_b, ignored) != detail::ClosedFormAnswer::unknown)
+    if (closed_form_sweep(shape_ref(a), motion_a, shape_ref(b), motion_b, ignored) != detail::PairAnswer::unknown)
         ++counts.direct;
     const double length = static_cast<double>(glm::length(motion_a - motion_b));
     if (direct.has_value() != of_views.has_value()) {
@@ -109,7 +109,7 @@ TEST(DirectSweep, AnswersAreThoseOfTheViews) {
 template <class A, class B>
 std::optional<Hit<2>> direct_hit(const A& a, const Vec2& motion, const B& b) {
     std::optional<Hit<2>> result;
-    EXPECT_EQ(closed_form_sweep(shape_ref(a), motion, shape_ref(b), Vec2(0), result), detail::ClosedFormAnswer::yes);
+    EXPECT_EQ(closed_form_sweep(shape_ref(a), motion, shape_ref(b), Vec2(0), result), detail::PairAnswer::yes);
     return result;
 }
 

@@ -15,10 +15,8 @@
 
 namespace abut::detail {
 
-using ClosedFormAnswer = PairAnswer;
-
-ClosedFormAnswer closed_form_overlap(const ShapeRef<2>& a, const ShapeRef<2>& b, Cache* cache);
-ClosedFormAnswer closed_form_overlap(const ShapeRef<3>& a, const ShapeRef<3>& b, Cache* cache);
+PairAnswer closed_form_overlap(const ShapeRef<2>& a, const ShapeRef<2>& b, Cache* cache);
+PairAnswer closed_form_overlap(const ShapeRef<3>& a, const ShapeRef<3>& b, Cache* cache);
 
 // These return false, and leave `result` unchanged, if they have no answer.
 
@@ -28,8 +26,8 @@ bool closed_form_contact(const ShapeRef<3>& a, const ShapeRef<3>& b, double marg
 
 /// A sweep of two plain shapes in the plane. The answer is `unknown` for shapes that touch at the start, slide or
 /// graze. `result` is written only if the answer is `yes`.
-ClosedFormAnswer closed_form_sweep(const ShapeRef<2>& a, const Vec2& motion_a, const ShapeRef<2>& b,
-                                   const Vec2& motion_b, std::optional<Hit<2>>& result);
+PairAnswer closed_form_sweep(const ShapeRef<2>& a, const Vec2& motion_a, const ShapeRef<2>& b, const Vec2& motion_b,
+                             std::optional<Hit<2>>& result);
 
 /// The signed distance of a pair of views, as exact as GJK and EPA: a ball against a ball, a segment, a triangle, a
 /// box, a polygon of few edges or the inside of a polyhedron; a segment or capsule against another, a triangle or a

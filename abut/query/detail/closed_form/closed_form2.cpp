@@ -23,13 +23,10 @@ void name_features(const ClosestFeatures2& closest, Answer& answer) {
 
 }  // namespace
 
-ClosedFormAnswer closed_form_overlap(const ShapeRef<2>& a, const ShapeRef<2>& b, Cache* cache) {
+PairAnswer closed_form_overlap(const ShapeRef<2>& a, const ShapeRef<2>& b, Cache* cache) {
     PolygonsOfShapes polygons(a, b);
-    if (!polygons.known) return ClosedFormAnswer::unknown;
-    const PairAnswer2 answer = pair2_within(polygons.a, polygons.b, 0, cache);
-    return answer == PairAnswer2::unknown  ? ClosedFormAnswer::unknown
-           : answer == PairAnswer2::within ? ClosedFormAnswer::yes
-                                           : ClosedFormAnswer::no;
+    if (!polygons.known) return PairAnswer::unknown;
+    return pair2_within(polygons.a, polygons.b, 0, cache);
 }
 
 }  // namespace abut::detail
@@ -61,7 +58,7 @@ Closest<2> closest(const ShapeRef<2>& a, const ShapeRef<2>& b, const QueryOption
     PolygonsOfShapes polygons(a, b);
     ClosestFeatures2 found;
     if (options.trace == nullptr && polygons.known &&
-        pair2_closest(polygons.a, polygons.b, options.cache, found) != PairAnswer2::unknown) {
+        pair2_closest(polygons.a, polygons.b, options.cache, found) != PairAnswer::unknown) {
         const Double2 out = found.from_a();
         result.distance = static_cast<float>(found.gap - polygons.a.radius - polygons.b.radius);
         lanes::store(out, &result.normal.x);
@@ -82,12 +79,11 @@ Contact<2> contact(const ShapeRef<2>& a, const ShapeRef<2>& b, const QueryOption
     ClosestFeatures2 found;
     ContactLanes points;
     const double margin = static_cast<double>(options.margin);
-    const PairAnswer2 answer =
-        options.trace != nullptr || !polygons.known
-            ? PairAnswer2::unknown
-            : pair2_contact(polygons.a, polygons.b, margin, margin, options.cache, found, points);
-    if (answer == PairAnswer2::unknown) contact_of_views(a, b, options, result);
-    if (answer == PairAnswer2::within) {
+    const PairAnswer answer = options.trace != nullptr || !polygons.known
+                                  ? PairAnswer::unknown
+                                  : pair2_contact(polygons.a, polygons.b, margin, margin, options.cache, found, points);
+    if (answer == PairAnswer::unknown) contact_of_views(a, b, options, result);
+    if (answer == PairAnswer::yes) {
         lanes::store(found.from_a(), &result.normal.x);
         result.depth = static_cast<float>(polygons.a.radius + polygons.b.radius - found.gap);
         for (std::uint32_t i = 0; i < 2; ++i)

@@ -78,7 +78,7 @@ bool bounding_balls_apart(const ShapeRef<3>& a, const ShapeRef<3>& b, double rea
 
 }  // namespace
 
-ClosedFormAnswer closed_form_overlap(const ShapeRef<3>& a, const ShapeRef<3>& b, Cache* cache) {
+PairAnswer closed_form_overlap(const ShapeRef<3>& a, const ShapeRef<3>& b, Cache* cache) {
     const PairAnswer answer = overlap_of_cores(a, b, cache);
     return answer == PairAnswer::unknown && bounding_balls_apart(a, b, 0) ? PairAnswer::no : answer;
 }

@@ -41,12 +41,12 @@ inline bool find_passage(const CorePair<BoxCore>& pair, const Double2 (&coming)[
 
 /// Whether two shapes that touch at the time `enters` do so within the motion, if they approach by `closing` per unit
 /// of time.
-inline ClosedFormAnswer is_within_motion(double enters, double closing, const RelativeMotion& relative) {
-    if (!(enters * closing > relative.tolerances.touch)) return ClosedFormAnswer::unknown;
+inline PairAnswer is_within_motion(double enters, double closing, const RelativeMotion& relative) {
+    if (!(enters * closing > relative.tolerances.touch)) return PairAnswer::unknown;
     const double late = enters - relative.max_fraction;
-    if (late * closing > relative.tolerances.touch) return ClosedFormAnswer::no;
+    if (late * closing > relative.tolerances.touch) return PairAnswer::no;
     // They almost touch at the end, where the closest points are not yet those of the impact.
-    return late * relative.length > relative.tolerances.touch ? ClosedFormAnswer::unknown : ClosedFormAnswer::yes;
+    return late * relative.length > relative.tolerances.touch ? PairAnswer::unknown : PairAnswer::yes;
 }
 
 /// Whether two shapes that approach this fast certainly penetrate: around each point of the difference of the cores the
@@ -65,23 +65,23 @@ struct RoundImpact {
 /// `between` goes to the other point; the point moves by `motion`. `no` means that it passes on one side; `normal` then
 /// points to that side, with any length. The code divides by the length of the motion as late as possible: it compares
 /// areas of the motion and the offset across it.
-inline ClosedFormAnswer find_round_impact(Double2 between, Double2 motion, const RelativeMotion& relative,
-                                          RoundImpact& impact) {
+inline PairAnswer find_round_impact(Double2 between, Double2 motion, const RelativeMotion& relative,
+                                    RoundImpact& impact) {
     const double square = lanes::dot(motion, motion)[0], per_square = 1 / square, per_radius = 1 / relative.radius;
     const Double2 crossed = motion * lanes::swapped(between);
     const double across = crossed[0] - crossed[1], ahead = lanes::dot(between, motion)[0];
     const double passes = relative.radius + relative.certain_depth();
     if (across * across > passes * passes * square) {
         impact.normal = lanes::swapped(motion) * lanes::double2(-across, across);
-        return ClosedFormAnswer::no;
+        return PairAnswer::no;
     }
     const double chord = relative.radius * relative.radius * square - across * across;
-    if (!(0.5 * chord > relative.tolerances.slide * relative.radius * square)) return ClosedFormAnswer::unknown;
+    if (!(0.5 * chord > relative.tolerances.slide * relative.radius * square)) return PairAnswer::unknown;
     const double half = std::sqrt(chord);
     impact.enters = (ahead - half) * per_square;
     impact.closing = half * per_radius;
     impact.normal = (between - motion * lanes::double2(impact.enters)) * lanes::double2(per_radius);
-    return ClosedFormAnswer::yes;
+    return PairAnswer::yes;
 }
 
 /// `normal` points out of A.
@@ -105,14 +105,14 @@ public:
           passage_(passage),
           relative_(relative) {}
 
-    ClosedFormAnswer report(std::optional<Hit<2>>& result) const {
+    PairAnswer report(std::optional<Hit<2>>& result) const {
         const Core &reference = reference_, &other = other_;
         const Double2 velocity = other_motion_ - reference_motion_;
         const Double2 out = reference_.place().vector(reference.normal(passage_.side));
         const double closing = -lanes::dot(out, velocity)[0];
-        if (!(closing > min_slope * relative_.length)) return ClosedFormAnswer::unknown;
-        const ClosedFormAnswer within_motion = is_within_motion(passage_.enters, closing, relative_);
-        if (within_motion != ClosedFormAnswer::yes) return within_motion;
+        if (!(closing > min_slope * relative_.length)) return PairAnswer::unknown;
+        const PairAnswer within_motion = is_within_motion(passage_.enters, closing, relative_);
+        if (within_motion != PairAnswer::yes) return within_motion;
         const double time = std::min(passage_.enters, relative_.max_fraction);
 
         const Double2 offset = other_.place().vector(other_.corner(passage_.corner));
@@ -121,19 +121,19 @@ public:
         const Double2 local_corner = reference_.place().back(offset + between);
         const EdgeRegion region = reference.voronoi_region(passage_.side, local_corner);
         if (region == EdgeRegion::within) {
-            if (relative_.radius > 0 && !enters_balls(closing, relative_)) return ClosedFormAnswer::unknown;
+            if (relative_.radius > 0 && !enters_balls(closing, relative_)) return PairAnswer::unknown;
             report_at_vertex(time, offset, out, result.emplace());
-            return ClosedFormAnswer::yes;
+            return PairAnswer::yes;
         }
         const bool before = region == EdgeRegion::before_start;
         const std::uint32_t end = before ? passage_.side : reference.after(passage_.side);
         const std::uint32_t next = before ? other.before(passage_.corner) : other.after(passage_.corner);
         if (!end_touches(local_corner, end,
                          reference_.place().back(other_.place().vector(other_.corner(next)) + between)))
-            return relative_.radius > 0 ? report_round(end, result) : ClosedFormAnswer::unknown;
-        if (relative_.radius > 0 && !enters_balls(closing, relative_)) return ClosedFormAnswer::unknown;
+            return relative_.radius > 0 ? report_round(end, result) : PairAnswer::unknown;
+        if (relative_.radius > 0 && !enters_balls(closing, relative_)) return PairAnswer::unknown;
         report_at_end(time, end, next, out, result.emplace());
-        return ClosedFormAnswer::yes;
+        return PairAnswer::yes;
     }
 
 private:
@@ -178,26 +178,25 @@ private:
 
     /// Beyond the end of an edge the shapes are round around two vertices. The answer is proven if these are the
     /// farthest along the normal: a plane separates the shapes until then, or all the time.
-    ClosedFormAnswer report_round(std::uint32_t end, std::optional<Hit<2>>& result) const {
+    PairAnswer report_round(std::uint32_t end, std::optional<Hit<2>>& result) const {
         const Double2 end_offset = reference_.place().vector(reference_.corner(end)),
                       corner_offset = other_.place().vector(other_.corner(passage_.corner));
         const Double2 between = (other_.place().position - reference_.place().position) + (corner_offset - end_offset);
         RoundImpact impact;
-        const ClosedFormAnswer found = find_round_impact(between, reference_motion_ - other_motion_, relative_, impact);
-        if (found == ClosedFormAnswer::unknown ||
-            !reference_.is_farthest(end, reference_.place().back(impact.normal)) ||
+        const PairAnswer found = find_round_impact(between, reference_motion_ - other_motion_, relative_, impact);
+        if (found == PairAnswer::unknown || !reference_.is_farthest(end, reference_.place().back(impact.normal)) ||
             !other_.is_farthest(passage_.corner, other_.place().back(-impact.normal)))
-            return ClosedFormAnswer::unknown;
-        if (found == ClosedFormAnswer::no) return found;
-        const ClosedFormAnswer within_motion = is_within_motion(impact.enters, impact.closing, relative_);
-        if (within_motion != ClosedFormAnswer::yes) return within_motion;
+            return PairAnswer::unknown;
+        if (found == PairAnswer::no) return found;
+        const PairAnswer within_motion = is_within_motion(impact.enters, impact.closing, relative_);
+        if (within_motion != PairAnswer::yes) return within_motion;
         const double time = std::min(impact.enters, relative_.max_fraction);
         const Double2 point = reference_.place().position + end_offset + reference_motion_ * lanes::double2(time);
         Hit<2>& hit = result.emplace();
         write(time, relative_, point + impact.normal * lanes::double2(reference_.radius()), from_a(impact.normal), hit);
         const std::uint32_t of_b = a_is_reference() ? passage_.corner : end;
         name(a_is_reference() ? other_ : reference_, of_b, of_b, hit);
-        return ClosedFormAnswer::yes;
+        return PairAnswer::yes;
     }
 
     const Core &reference_, &other_;
@@ -207,8 +206,8 @@ private:
 };
 
 template <class Core>
-ClosedFormAnswer sweep_cores(const PlacedPolygon& polygon_a, const PlacedPolygon& polygon_b,
-                             const Double2 (&motions)[2], std::optional<Hit<2>>& result) {
+PairAnswer sweep_cores(const PlacedPolygon& polygon_a, const PlacedPolygon& polygon_b, const Double2 (&motions)[2],
+                       std::optional<Hit<2>>& result) {
     CorePair<Core> pair(polygon_a, polygon_b);
     pair.set_relative_places();
     const Core &a = pair.shape(0), &b = pair.shape(1);
@@ -218,13 +217,13 @@ ClosedFormAnswer sweep_cores(const PlacedPolygon& polygon_a, const PlacedPolygon
     relative.radius = a.radius() + b.radius();
     // Beyond this length of motion nothing can be hit.
     const double far = 2 * (pair.scale() + std::abs(relative.radius));
-    if (!(relative.length > 0 && relative.length < infinity && far < infinity)) return ClosedFormAnswer::unknown;
+    if (!(relative.length > 0 && relative.length < infinity && far < infinity)) return PairAnswer::unknown;
     relative.max_fraction = relative.length > far ? far / relative.length : 1;
     relative.tolerances = SweepTolerances({a.extent() + a.radius(), 0}, {b.extent() + b.radius(), 0}, far);
     const Double2 coming[2] = {a.place().back(relative.motion), b.place().back(-relative.motion)};
     Passage passage;
-    if (!find_passage(pair, coming, relative, passage)) return ClosedFormAnswer::no;
-    if (!passage.penetrates()) return ClosedFormAnswer::unknown;
+    if (!find_passage(pair, coming, relative, passage)) return PairAnswer::no;
+    if (!passage.penetrates()) return PairAnswer::unknown;
     return EdgeImpact<Core>(pair, motions, passage, relative).report(result);
 }
 
@@ -235,8 +234,8 @@ inline Double2 center_of(const ShapeRef<2>& given) {
     return lanes::double2(center.x, center.y);
 }
 
-ClosedFormAnswer sweep_circles(const ShapeRef<2>& given_a, const Vec2& motion_a, const ShapeRef<2>& given_b,
-                               const Vec2& motion_b, std::optional<Hit<2>>& result) {
+PairAnswer sweep_circles(const ShapeRef<2>& given_a, const Vec2& motion_a, const ShapeRef<2>& given_b,
+                         const Vec2& motion_b, std::optional<Hit<2>>& result) {
     const double radius_a = static_cast<double>(given_a.as<Circle>().radius),
                  radius_b = static_cast<double>(given_b.as<Circle>().radius);
     const Double2 center = center_of(given_a), moves_a = lanes::loaded(&motion_a.x);
@@ -251,28 +250,28 @@ ClosedFormAnswer sweep_circles(const ShapeRef<2>& given_a, const Vec2& motion_a,
     const double outside = relative.radius + relative.tolerances.touch;
     if (!(relative.radius > 0 && relative.length > 0 && relative.length < infinity && far < infinity &&
           lanes::dot(between, between)[0] > outside * outside))
-        return ClosedFormAnswer::unknown;
-    if (!(lanes::dot(between, relative.motion)[0] > 0)) return ClosedFormAnswer::no;
+        return PairAnswer::unknown;
+    if (!(lanes::dot(between, relative.motion)[0] > 0)) return PairAnswer::no;
     RoundImpact impact;
-    const ClosedFormAnswer found = find_round_impact(between, relative.motion, relative, impact);
-    if (found != ClosedFormAnswer::yes) return found;
-    const ClosedFormAnswer within_motion = is_within_motion(impact.enters, impact.closing, relative);
-    if (within_motion != ClosedFormAnswer::yes) return within_motion;
+    const PairAnswer found = find_round_impact(between, relative.motion, relative, impact);
+    if (found != PairAnswer::yes) return found;
+    const PairAnswer within_motion = is_within_motion(impact.enters, impact.closing, relative);
+    if (within_motion != PairAnswer::yes) return within_motion;
     const double time = std::min(impact.enters, relative.max_fraction);
     Hit<2>& hit = result.emplace();
     const Double2 point = center + moves_a * lanes::double2(time) + impact.normal * lanes::double2(radius_a);
     write(time, relative, point, impact.normal, hit);
     hit.feature.kind = FeatureKind::vertex;
-    return ClosedFormAnswer::yes;
+    return PairAnswer::yes;
 }
 
 }  // namespace
 
-ClosedFormAnswer closed_form_sweep(const ShapeRef<2>& a, const Vec2& motion_a, const ShapeRef<2>& b,
-                                   const Vec2& motion_b, std::optional<Hit<2>>& result) {
+PairAnswer closed_form_sweep(const ShapeRef<2>& a, const Vec2& motion_a, const ShapeRef<2>& b, const Vec2& motion_b,
+                             std::optional<Hit<2>>& result) {
     if (a.kind == ShapeKind::ball && b.kind == ShapeKind::ball) return sweep_circles(a, motion_a, b, motion_b, result);
     PlacedPolygon polygon_a, polygon_b;
-    if (!set_placed_polygon(a, polygon_a) || !set_placed_polygon(b, polygon_b)) return ClosedFormAnswer::unknown;
+    if (!set_placed_polygon(a, polygon_a) || !set_placed_polygon(b, polygon_b)) return PairAnswer::unknown;
     const Double2 motions[2] = {lanes::loaded(&motion_a.x), lanes::loaded(&motion_b.x)};
     if (polygon_a.core != PlacedPolygon::Core::polygon && polygon_b.core != PlacedPolygon::Core::polygon)
         return sweep_cores<BoxCore>(polygon_a, polygon_b, motions, result);
