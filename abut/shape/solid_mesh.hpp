@@ -16,10 +16,10 @@ struct Solid {
     S mesh;
 };
 
-/// `mesh` as a solid. Its distance to another solid is below zero exactly where the interiors share a point. The depth
-/// is a move that parts the two. The view refers to an lvalue and owns an rvalue, and composes with `at` and
-/// `stretched`. Sweeps and ray casts hit its triangles. A mesh that isn't closed stays the union of its triangles, and
-/// so does a solid that is `rounded`.
+/// `mesh` as a solid. Its distance to another solid or a convex shape is below zero exactly where a point of one is in
+/// the interior of the other. The depth is a move that parts the two. Rays and sweeps hit it where they enter it. The
+/// view refers to an lvalue and owns an rvalue, and composes with `at` and `stretched`. A mesh that isn't closed stays
+/// the union of its triangles, and so does a solid that is `rounded` or in a Compound.
 template <class S>
 requires std::is_same_v<std::remove_cvref_t<S>, Mesh> Solid<S> solid(S&& mesh) {
     return {std::forward<S>(mesh)};

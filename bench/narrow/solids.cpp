@@ -3,7 +3,11 @@
 #include "../../scenes/bumpy_ball.hpp"
 #include "../../scenes/kit.hpp"
 #include "narrow.hpp"
+#include <abut/shape/capsule.hpp>
 #include <abut/shape/solid_mesh.hpp>
+
+#include <algorithm>
+#include <limits>
 
 namespace abut::bench {
 
@@ -57,8 +61,26 @@ SolidPairs bumpy_pairs() {
     return result;
 }
 
+/// Whether each depth is a move that parts the pair, and no longer than one out of the bounding boxes.
+bool are_right(const SolidPairs& scene) {
+    return std::all_of(scene.pairs.begin(), scene.pairs.end(), [&](const SolidPair& pair) {
+        const auto a = scene.placed_a(pair), b = scene.placed_b(pair);
+        const Closest<3> nearest = closest(a, b);
+        if (nearest.distance >= 0) return nearest.distance == 0;
+        const Aabb3 box_a = bounds(a), box_b = bounds(b);
+        float out = std::numeric_limits<float>::infinity();
+        for (int i = 0; i < 3; ++i) out = std::min({out, box_a.max[i] - box_b.min[i], box_b.max[i] - box_a.min[i]});
+        Pose3 away = pair.pose_b;
+        away.position += nearest.normal * -nearest.distance;
+        return -nearest.distance <= out * 1.0001f &&
+               closest(a, at(solid(scene.meshes[pair.b]), away)).distance > -1e-5f;
+    });
+}
+
+/// The questions of a scene, whose depths are verified first.
 template <class Question>
 Job solids(SolidPairs scene, Question question) {
+    if (!are_right(scene)) scene.pairs.clear();
     const std::size_t count = scene.pairs.size();
     const Side ours{"abut",
                     [scene = std::make_shared<const SolidPairs>(std::move(scene)), question](std::span<double> values) {
@@ -73,6 +95,11 @@ Job solids(SolidPairs scene, Question question) {
 const auto overlap = [](const auto& a, const auto& b) -> double { return overlaps(a, b) ? 1 : 0; };
 const auto distance = [](const auto& a, const auto& b) -> double { return closest(a, b).distance; };
 const auto depth = [](const auto& a, const auto& b) -> double { return contact(a, b).depth; };
+/// A capsule at the place of the second solid.
+const auto capsule = [](const auto& a, const auto& b) -> double {
+    const Vec3 place = b.pose.position;
+    return closest(a, Capsule3{place, place + Vec3(0, 0.5f, 0), 0.25f}).distance;
+};
 
 }  // namespace
 
@@ -81,8 +108,11 @@ std::vector<Bench> solid_benches() {
         {"narrow/solids/kit/overlaps", [] { return solids(kit_pairs(), overlap); }},
         {"narrow/solids/kit/closest", [] { return solids(kit_pairs(), distance); }},
         {"narrow/solids/kit/contact", [] { return solids(kit_pairs(), depth); }},
+        {"narrow/solids/kit/capsule", [] { return solids(kit_pairs(), capsule); }},
         {"narrow/solids/mesh1k/overlaps", [] { return solids(bumpy_pairs(), overlap); }},
         {"narrow/solids/mesh1k/closest", [] { return solids(bumpy_pairs(), distance); }},
+        {"narrow/solids/mesh1k/contact", [] { return solids(bumpy_pairs(), depth); }},
+        {"narrow/solids/mesh1k/capsule", [] { return solids(bumpy_pairs(), capsule); }},
     };
 }
 
