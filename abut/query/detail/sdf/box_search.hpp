@@ -25,17 +25,17 @@ int longest_axis(const DVec<D>& half) {
 template <int D>
 struct SearchBox {
     DVec<D> center, half;
-    double lower_bound = -std::numeric_limits<double>::infinity();  ///< of the function in the box
+    double lower_bound;  ///< of the function in the box
 
     static SearchBox between(const DVec<D>& low, const DVec<D>& high) {
-        return {(low + high) * 0.5, (high - low) * 0.5};
+        return {(low + high) * 0.5, (high - low) * 0.5, -std::numeric_limits<double>::infinity()};
     }
 };
 
 /// The plane that splits a box in two.
 struct Cut {
-    int axis = -1;
-    double at = 0;
+    int axis;  ///< -1: any
+    double at;
 };
 
 /// A search processes boxes until none is left that may improve the best point. The box with the lowest bound comes

@@ -99,7 +99,7 @@ private:
         ++best_.boxes;
         const double before = best_.distance;
         const Values here = sample(box.center);
-        Cut cut;
+        Cut cut{-1, 0};
         const LowerBound a = lower_bound(a_, box, cut), b = lower_bound(b_, box, cut);
         box.lower_bound = std::max({box.lower_bound, a.constant, b.constant});
         // The larger is above each combination of both planes. The one of the least gradient is the best.

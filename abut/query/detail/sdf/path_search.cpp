@@ -36,6 +36,9 @@ public:
           tolerance_(bounds.tolerance),
           exact_(fraction_searched * tolerance_),
           search_tolerance_(std::max(tolerance_, function_search_tolerance<D>(set, function))) {
+        for (const RigidPath<D>* path : {&path_of_set, &path_of_function})
+            is_straight_ = is_straight_ && angular_speed(path->angular_velocity) == 0 &&
+                           path->start.offset == DVec<D>(0.0) && path->start.column == Affine<D>::identity();
         acceleration_ =
             relative_motion_bounds(path_of_set, path_of_function, reach_of(detail::bounds(set))).acceleration;
     }
@@ -70,6 +73,11 @@ private:
 
     /// The place of the set in the function's own frame, which is rigid.
     Affine<D> place_at(double time) const {
+        if (is_straight_) {
+            Affine<D> moved_by;
+            moved_by.offset = path_of_set_.move * time - path_of_function_.move * time;
+            return back_ * moved_by;
+        }
         return back_ * (back_from(detail::place_at(path_of_function_, time)) * detail::place_at(path_of_set_, time));
     }
     /// How far a point may be from its chord: an eighth of its acceleration times the square of the time.
@@ -228,6 +236,7 @@ private:
     DistanceFunction<D> own_;
     PlacedFunction<D> placed_;
     double tolerance_, exact_, search_tolerance_, acceleration_ = 0;
+    bool is_straight_ = true;  ///< neither path rotates, nor starts rotated or off the origin
 };
 
 }  // namespace
