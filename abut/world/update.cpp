@@ -1,6 +1,7 @@
 // The update: boxes, near pairs, contacts and events.
 
 #include <abut/query/overlaps.hpp>
+#include <abut/world/detail/edge_filter_state.hpp>
 #include <abut/world/world.hpp>
 
 #include <algorithm>
@@ -30,6 +31,9 @@ void World<D>::add_if_near(std::uint32_t slot, std::uint32_t other) {
     if ((a.layers & b.mask) == 0 || (b.layers & a.mask) == 0) return;
     if (a.type == detail::ShapeType::half_space && b.type == detail::ShapeType::half_space) return;
     near_.push_back({id_of(std::min(slot, other)), id_of(std::max(slot, other))});
+    if (!filters_edges_) return;
+    ++edges_->list_of_slot[slot];
+    ++edges_->list_of_slot[other];
 }
 
 /// Tests a near pair. If neither item changed, the last result is repeated.
@@ -149,6 +153,10 @@ Events World<D>::find_events() {
 
     std::swap(near_, last_near_);
     near_.clear();
+    if (filters_edges_) {
+        if (edges_ == nullptr) edges_.reset(new detail::EdgeFilterState<D>());
+        edges_->begin_update(items_.size());
+    }
     moving_.phase().each_pair(
         [this](std::uint32_t i, std::uint32_t j) { add_if_near(moving_.slot(i), moving_.slot(j)); });
     moving_.phase().each_overlapping_pair(

@@ -51,33 +51,24 @@ void World<D>::reserve_edge_filter() {
 template <int D>
 void World<D>::find_neighbours() {
     if (!filters_edges_) return;
-    if (edges_ == nullptr) edges_.reset(new EdgeFilterState<D>());
     EdgeFilterState<D>& state = *edges_;
-    state.views.clear();
-    state.neighbour_changed_is_known = false;
-    state.list_of_slot.assign(items_.size(), state.none);
-    state.centers.clear();
+    const auto has_few = [&](const IdPair& pair) {
+        return state.list_of_slot[pair.a.index - 1] < 2 && state.list_of_slot[pair.b.index - 1] < 2;
+    };
     for (const IdPair& pair : near_) {
         const std::uint32_t a = pair.a.index - 1, b = pair.b.index - 1;
+        if (has_few(pair)) continue;
         if (!items_[a].pending && !items_[b].pending && !neighbours_changed(pair)) continue;
-        for (const std::uint32_t slot : {a, b})
-            if (state.list_of_slot[slot] == state.none && filters_edges(slot)) state.add_list(slot);
+        if (filters_edges(a)) state.add_list(a);
+        if (filters_edges(b)) state.add_list(b);
     }
-    const auto each = [&](auto&& add) {
-        for (const IdPair& pair : near_) {
-            const std::uint32_t a = pair.a.index - 1, b = pair.b.index - 1;
-            const std::uint32_t list_a = state.list_of_slot[a], list_b = state.list_of_slot[b];
-            if (list_a == state.none && list_b == state.none) continue;
-            if (!are_solid(a, b) || (widened_ && !overlaps(box(a), box(b)))) continue;
-            const auto neighbour = [](std::uint32_t slot) { return [slot] { return slot; }; };
-            if (list_a != state.none) add(list_a, neighbour(b));
-            if (list_b != state.none) add(list_b, neighbour(a));
-        }
-    };
-    state.neighbours.build(state.centers.size(), each);
-    const std::span<const std::uint32_t> all = state.neighbours.all();
-    state.neighbour_boxes.reserve(all.size());
-    for (std::size_t i = 0; i < all.size(); ++i) state.neighbour_boxes.set(i, box(all[i]));
+    state.begin_neighbours();
+    for (const IdPair& pair : near_) {
+        const std::uint32_t a = pair.a.index - 1, b = pair.b.index - 1;
+        if (has_few(pair) || !are_solid(a, b) || (widened_ && !overlaps(box(a), box(b)))) continue;
+        state.add_neighbour(a, b, box(b));
+        state.add_neighbour(b, a, box(a));
+    }
 }
 
 /// Marks the items near which another one has changed.
@@ -120,7 +111,7 @@ void World<D>::each_closest_point_beside(std::uint32_t slot, std::uint32_t other
         each_closest_point_on<D>(edges_->views.of(item, [&] { return placed(items_[item]); }), point, within, narrow);
         return within > stop_visiting;
     };
-    if (edges_->neighbour_count(slot) <= max_listed_neighbours) {
+    if (edges_->list_of(slot)->size <= max_listed_neighbours) {
         edges_->each_neighbour(slot, near, [&](std::uint32_t neighbour) {
             return neighbour == other || !overlaps_branchless(box(neighbour), near) || visit_item(neighbour);
         });
@@ -144,15 +135,15 @@ void World<D>::each_closest_point_beside(std::uint32_t slot, std::uint32_t other
 /// Whether a neighbour contains the centre of the item's AABB. Then the item is too deep in others to have a surface.
 template <int D>
 bool World<D>::is_center_covered(std::uint32_t slot) {
-    auto& state = edges_->center_of(slot);
-    if (std::exchange(state.is_tested, true)) return state.is_covered;
+    auto& list = *edges_->list_of(slot);
+    if (std::exchange(list.is_center_tested, true)) return list.is_center_covered;
     const Vec<D> middle = center(box(slot));
     if (!edges_->each_neighbour(slot, {middle, middle}, [](std::uint32_t) { return false; }))
         each_closest_point_beside(slot, slot, DVec<D>(middle), 0, [&](const ClosestPoint<D>& closest) {
-            state.is_covered = closest.distance < 0;
-            return state.is_covered ? stop_visiting : 0.0;
+            list.is_center_covered = closest.distance < 0;
+            return list.is_center_covered ? stop_visiting : 0.0;
         });
-    return state.is_covered;
+    return list.is_center_covered;
 }
 
 /// Whether no neighbour's AABB is near one of the deepest points of a contact, except that of `other`, which the item
@@ -176,7 +167,9 @@ bool World<D>::is_alone(const Contact<D>& contact, std::uint32_t slot, std::uint
 /// contact of items without parts are known.
 template <int D>
 bool World<D>::needs_filter(std::uint32_t slot, std::uint32_t other, const Contact<D>* contact, double side) {
-    if (!filters_edges(slot) || edges_->neighbour_count(slot) <= 1 || edges_->center_of(slot).is_covered) return false;
+    if (!filters_edges(slot)) return false;
+    const auto* const list = edges_->list_of(slot);
+    if (list == nullptr || list->size < 2 || list->is_center_covered) return false;
     return (contact == nullptr || !is_alone(*contact, slot, other, side)) && !is_center_covered(slot);
 }
 
@@ -215,11 +208,11 @@ bool World<D>::find_contact(const IdPair& pair) {
     };
     const auto beside_b = closest_points_beside(a, b), beside_a = closest_points_beside(b, a);
     const EachClosestPoint<D> of_a(beside_b), of_b(beside_a);
-    const auto nearest_to = [&](std::uint32_t slot) {
-        return has_parts || !filters_edges(slot) ? nullptr : &edges_->center_of(slot).nearest;
+    const auto nearest_to = [&](std::uint32_t slot, bool is_needed) {
+        return has_parts || !is_needed ? nullptr : &edges_->nearest_of(*edges_->list_of(slot));
     };
-    const NeighbourSurfaces<D> neighbours{for_a ? &of_a : nullptr, for_b ? &of_b : nullptr, nearest_to(a),
-                                          nearest_to(b)};
+    const NeighbourSurfaces<D> neighbours{for_a ? &of_a : nullptr, for_b ? &of_b : nullptr, nearest_to(a, for_a),
+                                          nearest_to(b, for_b)};
     if (!has_parts) {
         const SurfaceContact<D> filtered = filtered_contact(placed_a, placed_b, deepest.contact, *own, neighbours);
         found_.pop_back();
