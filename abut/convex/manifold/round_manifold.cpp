@@ -77,29 +77,30 @@ void clip_segments(const RoundSegment& a, const RoundSegment& b, const SignedDis
     Clipped clipped{b.from - origin, b.to - origin};
     const DVec<3> v = clipped.to - clipped.from, &normal = distance.normal;
     const double uu = dot(u, u), vv = dot(v, v), uv = dot(u, v), tilt = dot(u, normal);
+    const bool parallel =
+        uu > 0 && vv > 0 && uv * uv >= aligned * aligned * uu * vv && tilt * tilt <= tilt_squared * uu;
+    if (!parallel) return add_deepest(distance, 0, result);
     const double tolerance = 1e-6 * std::min(0.5 * std::sqrt(uu) + a.radius, 0.5 * std::sqrt(vv) + b.radius);
-    if (uu > 0 && vv > 0 && uv * uv >= aligned * aligned * uu * vv && tilt * tilt <= tilt_squared * uu) {
-        const DVec<3> along = normalized(u - normal * tilt), side = cross(along, normal);
-        const auto cut = [&](const DVec<3>& plane, double offset, std::uint32_t name) {
-            clipped.cut(dot(plane, clipped.from) - offset, dot(plane, clipped.to) - offset, name);
+    const DVec<3> along = normalized(u - normal * tilt), side = cross(along, normal);
+    const auto cut = [&](const DVec<3>& plane, double offset, std::uint32_t name) {
+        clipped.cut(dot(plane, clipped.from) - offset, dot(plane, clipped.to) - offset, name);
+    };
+    cut(-along, 0, 0);
+    cut(along, dot(along, u), 1);
+    cut(-side, a.radius + tolerance, 0);
+    cut(side, a.radius + tolerance, 1);
+    if (!clipped.empty) {
+        // The slope of A's line, seen along the normal.
+        const double rise = tilt / dot(along, u);
+        PointWriter writer{result, normal, -distance.distance, margin, tolerance, b.radius};
+        const auto add = [&](double part, std::uint32_t name) {
+            const DVec<3> place = clipped.at(part);
+            const double off = dot(side, place), gap = dot(normal, place) - rise * dot(along, place);
+            const double reach = std::sqrt(std::max(0.0, a.radius * a.radius - off * off));
+            writer.add(origin + place, reach + b.radius - gap, name);
         };
-        cut(-along, 0, 0);
-        cut(along, dot(along, u), 1);
-        cut(-side, a.radius + tolerance, 0);
-        cut(side, a.radius + tolerance, 1);
-        if (!clipped.empty) {
-            // The slope of A's line, seen along the normal.
-            const double rise = tilt / dot(along, u);
-            PointWriter writer{result, normal, -distance.distance, margin, tolerance, b.radius};
-            const auto add = [&](double part, std::uint32_t name) {
-                const DVec<3> place = clipped.at(part);
-                const double off = dot(side, place), gap = dot(normal, place) - rise * dot(along, place);
-                const double reach = std::sqrt(std::max(0.0, a.radius * a.radius - off * off));
-                writer.add(origin + place, reach + b.radius - gap, name);
-            };
-            add(clipped.low, clipped.low_name);
-            add(clipped.high, clipped.high_name);
-        }
+        add(clipped.low, clipped.low_name);
+        add(clipped.high, clipped.high_name);
     }
     add_deepest(distance, tolerance, result);
 }
@@ -114,35 +115,34 @@ bool clip_to_box(const PlacedBox& box, const RoundSegment& segment, const Signed
         if (std::abs(local[i]) > std::abs(local[up])) up = i;
     const int u = (up + 1) % 3, v = (up + 2) % 3;
     if (std::min(half[u], half[v]) <= 1e-5 * std::max(half[u], half[v])) return false;
+    if (std::abs(local[up]) < aligned) return deepest_point(distance, result);
     const DVec<3>&from = segment.from, &to = segment.to;
     const double tolerance = 1e-6 * std::min(length(half) + radius, segment.reach());
-    if (std::abs(local[up]) >= aligned) {
-        const double sign = local[up] < 0 ? -1 : 1, slope_u = local[u] / local[up], slope_v = local[v] / local[up];
-        // Relative to the face, projected onto it along the normal.
-        const auto seen = [&](const DVec<3>& point) {
-            DVec<3> place = lanes::vector(box.axes.transposed(lanes::double3(point) - box.center));
-            const double height = place[up] - sign * half[up];
-            place[u] -= slope_u * height;
-            place[v] -= slope_v * height;
-            place[up] = sign * height;
-            return place;
+    const double sign = local[up] < 0 ? -1 : 1, slope_u = local[u] / local[up], slope_v = local[v] / local[up];
+    // Relative to the face, projected onto it along the normal.
+    const auto seen = [&](const DVec<3>& point) {
+        DVec<3> place = lanes::vector(box.axes.transposed(lanes::double3(point) - box.center));
+        const double height = place[up] - sign * half[up];
+        place[u] -= slope_u * height;
+        place[v] -= slope_v * height;
+        place[up] = sign * height;
+        return place;
+    };
+    Clipped clipped{seen(from), seen(to)};
+    const std::uint32_t low = (sign < 0 ? 1u << up : 0u), low_u = 1u << u, low_v = 1u << v;
+    clipped.cut(-clipped.from[v] - half[v], -clipped.to[v] - half[v], low | low_u | low_v);
+    if (!clipped.empty) clipped.cut(clipped.from[u] - half[u], clipped.to[u] - half[u], low | low_v);
+    if (!clipped.empty) clipped.cut(clipped.from[v] - half[v], clipped.to[v] - half[v], low);
+    if (!clipped.empty) clipped.cut(-clipped.from[u] - half[u], -clipped.to[u] - half[u], low | low_u);
+    if (!clipped.empty) {
+        PointWriter writer{result, out, -distance.distance, margin, tolerance, segment.radius};
+        const double reach = radius + segment.radius, one = 1 / std::abs(local[up]);
+        const auto add = [&](double part, std::uint32_t name) {
+            const double height = clipped.from[up] + (clipped.to[up] - clipped.from[up]) * part;
+            writer.add(part >= 1 ? to : from + (to - from) * part, reach - height * one, name);
         };
-        Clipped clipped{seen(from), seen(to)};
-        const std::uint32_t low = (sign < 0 ? 1u << up : 0u), low_u = 1u << u, low_v = 1u << v;
-        clipped.cut(-clipped.from[v] - half[v], -clipped.to[v] - half[v], low | low_u | low_v);
-        if (!clipped.empty) clipped.cut(clipped.from[u] - half[u], clipped.to[u] - half[u], low | low_v);
-        if (!clipped.empty) clipped.cut(clipped.from[v] - half[v], clipped.to[v] - half[v], low);
-        if (!clipped.empty) clipped.cut(-clipped.from[u] - half[u], -clipped.to[u] - half[u], low | low_u);
-        if (!clipped.empty) {
-            PointWriter writer{result, out, -distance.distance, margin, tolerance, segment.radius};
-            const double reach = radius + segment.radius, one = 1 / std::abs(local[up]);
-            const auto add = [&](double part, std::uint32_t name) {
-                const double height = clipped.from[up] + (clipped.to[up] - clipped.from[up]) * part;
-                writer.add(part >= 1 ? to : from + (to - from) * part, reach - height * one, name);
-            };
-            add(clipped.low, clipped.low_name);
-            add(clipped.high, clipped.high_name);
-        }
+        add(clipped.low, clipped.low_name);
+        add(clipped.high, clipped.high_name);
     }
     add_deepest(distance, tolerance, result);
     return true;
@@ -155,31 +155,29 @@ bool clip_to_face(const Convex<3>& solid, std::uint32_t count, const Number& num
                   const RoundSegment& segment, const SignedDistance<3>& distance, const DVec<3>& out, double tolerance,
                   double margin, Manifold<3>& result) {
     const double along = dot(face_normal, out);
-    if (along >= aligned) {
-        const DVec<3> origin = core_corner(solid, number(0));
-        Clipped clipped{segment.from - origin, segment.to - origin};
-        DVec<3> from(0.0), area(0.0), last(0.0);
-        double longest = 0;
-        for (std::uint32_t i = 0; i < count; ++i) {
-            const DVec<3> to = i + 1 < count ? core_corner(solid, number(i + 1)) - origin : DVec<3>(0.0);
-            const DVec<3> side = cross(to - from, out);
-            const double offset = dot(side, from);
-            if (!clipped.empty)
-                clipped.cut(dot(side, clipped.from) - offset, dot(side, clipped.to) - offset, number(i));
-            longest = std::max(longest, length_squared(to));
-            area += cross(last, to);
-            last = from = to;
-        }
-        if (!(length_squared(area) > 1e-6 * longest * longest)) return false;
-        if (!clipped.empty) {
-            PointWriter writer{result, out, -distance.distance, margin, tolerance, segment.radius};
-            const auto add = [&](double part, std::uint32_t name) {
-                const DVec<3> place = clipped.at(part);
-                writer.add(origin + place, solid.radius + segment.radius - dot(face_normal, place) / along, name);
-            };
-            add(clipped.low, clipped.low_name);
-            add(clipped.high, clipped.high_name);
-        }
+    if (along < aligned) return deepest_point(distance, result);
+    const DVec<3> origin = core_corner(solid, number(0));
+    Clipped clipped{segment.from - origin, segment.to - origin};
+    DVec<3> from(0.0), area(0.0), last(0.0);
+    double longest = 0;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const DVec<3> to = i + 1 < count ? core_corner(solid, number(i + 1)) - origin : DVec<3>(0.0);
+        const DVec<3> side = cross(to - from, out);
+        const double offset = dot(side, from);
+        if (!clipped.empty) clipped.cut(dot(side, clipped.from) - offset, dot(side, clipped.to) - offset, number(i));
+        longest = std::max(longest, length_squared(to));
+        area += cross(last, to);
+        last = from = to;
+    }
+    if (!(length_squared(area) > 1e-6 * longest * longest)) return false;
+    if (!clipped.empty) {
+        PointWriter writer{result, out, -distance.distance, margin, tolerance, segment.radius};
+        const auto add = [&](double part, std::uint32_t name) {
+            const DVec<3> place = clipped.at(part);
+            writer.add(origin + place, solid.radius + segment.radius - dot(face_normal, place) / along, name);
+        };
+        add(clipped.low, clipped.low_name);
+        add(clipped.high, clipped.high_name);
     }
     add_deepest(distance, tolerance, result);
     return true;

@@ -54,12 +54,9 @@ inline void nearest_from_inside(const DVec<3>& half, const DVec<3>& point, BoxCl
     place.part = {sign < 0 ? 1u << nearest : 0, 7u ^ 1u << nearest};
 }
 
-inline bool distance_of(const PlacedBox& box, const PlacedBall& ball, CoresDistance& found) {
+inline void set_ball_and_box(const PlacedBox& box, const PlacedBall& ball, const BoxClosestPoint& place, bool outside,
+                             CoresDistance& found) {
     using namespace lanes;
-    BoxClosestPoint place;
-    const Double3 local = box.axes.transposed(ball.center - box.center);
-    const bool outside = nearest_from_outside(box.half, local, place);
-    if (!outside) nearest_from_inside(vector(box.half), vector(local), place);
     const Double3 offset = box.axes.vector(place.offset);
     found.distance = place.distance;
     found.normal = offset * place.per_length;
@@ -67,7 +64,35 @@ inline bool distance_of(const PlacedBox& box, const PlacedBall& ball, CoresDista
     found.part_a = place.part;
     found.part_b = {};
     add_balls(box.radius, ball.radius, found);
-    return outside || finite(box.half.xy + box.half.z);
+}
+
+// Closed forms without branches, for most pairs of their kinds. False: `distance_of` goes on.
+
+template <class A, class B>
+bool short_distance(const A&, const B&, CoresDistance&) {
+    return false;
+}
+inline bool short_distance(const PlacedBall& a, const PlacedBall& b, CoresDistance& found) {
+    return distance_of(a, b, found);
+}
+inline bool short_distance(const PlacedBox& box, const PlacedBall& ball, CoresDistance& found) {
+    BoxClosestPoint place;
+    if (!nearest_from_outside(box.half, box.axes.transposed(ball.center - box.center), place)) return false;
+    set_ball_and_box(box, ball, place, true, found);
+    return true;
+}
+inline bool short_distance(const PlacedBall& ball, const PlacedBox& box, CoresDistance& found) {
+    if (!short_distance(box, ball, found)) return false;
+    flip(found);
+    return true;
+}
+
+inline bool distance_of(const PlacedBox& box, const PlacedBall& ball, CoresDistance& found) {
+    if (short_distance(box, ball, found)) return true;
+    BoxClosestPoint place;
+    nearest_from_inside(lanes::vector(box.half), lanes::vector(box.axes.transposed(ball.center - box.center)), place);
+    set_ball_and_box(box, ball, place, false, found);
+    return lanes::finite(box.half.xy + box.half.z);
 }
 
 /// The end or the edge at a parameter in [0, 1], by its bits, because a branch can't be predicted.
@@ -80,7 +105,7 @@ inline CoreFeature segment_feature(double part) {
 /// The closest points: the ends of the common perpendicular, or an end and its projection. Returns false, with `found`
 /// undefined, if the segments nearly cross, are nearly parallel, very large or small, or not finite. Ericson, Real-Time
 /// Collision Detection (2005), 5.1.9.
-inline bool distance_of_crossing(const PlacedSegment& a, const PlacedSegment& b, CoresDistance& found) {
+inline bool short_distance(const PlacedSegment& a, const PlacedSegment& b, CoresDistance& found) {
     using namespace lanes;
     // Squares of the sine of their angle, and of the gap relative to their lengths. Within these limits rounding moves
     // the closest points along the segments by at most 1e-9 of their distance.
@@ -116,7 +141,7 @@ inline bool distance_of_crossing(const PlacedSegment& a, const PlacedSegment& b,
 }
 
 inline bool distance_of(const PlacedSegment& a, const PlacedSegment& b, CoresDistance& found) {
-    return distance_of_crossing(a, b, found) || distance_of_any_segments(a, b, found);
+    return short_distance(a, b, found) || distance_of_any_segments(a, b, found);
 }
 
 /// Pairs in the other order.

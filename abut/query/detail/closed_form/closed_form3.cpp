@@ -31,21 +31,62 @@ void write_features(const CoresDistance& found, Answer& result) {
     result.feature_b = core_features[(found.part_b.free ^ 7u) + 8 * found.part_b.low];
 }
 
-/// The contact of two cores in the order of the shapes.
+void write_closest(const CoresDistance& found, Closest<3>& result) {
+    result.distance = static_cast<float>(found.distance[0]);
+    store(found.normal, result.normal);
+    store(found.on_a, result.on_a);
+    store(found.on_b(), result.on_b);
+    write_features(found, result);
+}
+
+// A function for each pair of cores, out of line, so that each keeps its numbers in registers.
+
 template <class A, class B>
-PairAnswer contact_of(const A& a, const B& b, double margin, Cache* cache, CoresDistance& found,
-                      SignedDistance<3>& distance, Manifold<3>& points) {
+[[gnu::noinline]] bool closest_in_full(const ShapeRef<3>& a, const ShapeRef<3>& b, Cache* cache, Closest<3>& result) {
+    CoresDistance found;
+    if (!distance_of(core_of<A>(a), core_of<B>(b), cache, found)) return false;
+    write_closest(found, result);
+    return true;
+}
+
+template <class A, class B>
+[[gnu::noinline]] bool closest_of(const ShapeRef<3>& a, const ShapeRef<3>& b, Cache* cache, Closest<3>& result) {
+    CoresDistance found;
+    if (a.pose == nullptr && b.pose == nullptr && short_distance(core_in_place<A>(a), core_in_place<B>(b), found) &&
+        lanes::finite(found.distance)) {
+        write_closest(found, result);
+        return true;
+    }
+    return closest_in_full<A, B>(a, b, cache, result);
+}
+
+template <class A, class B>
+[[gnu::noinline]] PairAnswer overlap_of_kinds(const ShapeRef<3>& a, const ShapeRef<3>& b, Cache* cache) {
+    return overlap_of(core_of<A>(a), core_of<B>(b), cache);
+}
+
+template <class A, class B>
+[[gnu::noinline]] PairAnswer contact_of(const ShapeRef<3>& given_a, const ShapeRef<3>& given_b, double margin,
+                                        Cache* cache, Contact<3>& result) {
+    const A a = core_of<A>(given_a);
+    const B b = core_of<B>(given_b);
+    CoresDistance found;
+    SignedDistance<3> distance;
+    Manifold<3> points;
     if constexpr (std::is_same_v<A, PlacedBox> && std::is_same_v<B, PlacedBox>) {
         const PairAnswer answer = contact_of_boxes(a, b, margin, margin, cache, found, points);
-        if (answer == PairAnswer::yes) set_distance(found, distance);
-        return answer;
+        if (answer != PairAnswer::yes) return answer;
+        set_distance(found, distance);
     } else {
         if (are_apart(a, b, margin)) return PairAnswer::no;
         if (!distance_of(a, b, cache, found)) return PairAnswer::unknown;
         if (found.distance[0] > margin) return PairAnswer::no;
         set_distance(found, distance);
-        return core_manifold(a, b, distance, margin, points) ? PairAnswer::yes : PairAnswer::unknown;
+        if (!core_manifold(a, b, distance, margin, points)) return PairAnswer::unknown;
     }
+    write(distance, points, result);
+    write_features(found, result);
+    return PairAnswer::yes;
 }
 
 /// A ball around a box, a sphere or a polyhedron.
@@ -79,35 +120,24 @@ bool bounding_balls_apart(const ShapeRef<3>& a, const ShapeRef<3>& b, double rea
 }  // namespace
 
 PairAnswer closed_form_overlap(const ShapeRef<3>& a, const ShapeRef<3>& b, Cache* cache) {
-    const PairAnswer answer = overlap_of_cores(a, b, cache);
+    const PairAnswer answer = with_kinds(a, b, PairAnswer::unknown, [&](auto kind_a, auto kind_b) {
+        return overlap_of_kinds<typename decltype(kind_a)::type, typename decltype(kind_b)::type>(a, b, cache);
+    });
     return answer == PairAnswer::unknown && bounding_balls_apart(a, b, 0) ? PairAnswer::no : answer;
 }
 
 bool closed_form_closest(const ShapeRef<3>& a, const ShapeRef<3>& b, Cache* cache, Closest<3>& result) {
-    CoresDistance found;
-    if (!distance_of_cores(a, b, cache, found)) return false;
-    result.distance = static_cast<float>(found.distance[0]);
-    store(found.normal, result.normal);
-    store(found.on_a, result.on_a);
-    store(found.on_b(), result.on_b);
-    write_features(found, result);
-    return true;
+    return with_kinds(a, b, false, [&](auto kind_a, auto kind_b) {
+        return closest_of<typename decltype(kind_a)::type, typename decltype(kind_b)::type>(a, b, cache, result);
+    });
 }
 
 bool closed_form_contact(const ShapeRef<3>& a, const ShapeRef<3>& b, double margin, Cache* cache, Contact<3>& result) {
-    CoresDistance found;
-    SignedDistance<3> distance;
-    Manifold<3> points;
-    PairAnswer answer = PairAnswer::unknown;
-    with_cores(a, b, [&](const auto& x, const auto& y) {
-        answer = contact_of(x, y, margin, cache, found, distance, points);
-        return true;
+    const PairAnswer answer = with_kinds(a, b, PairAnswer::unknown, [&](auto kind_a, auto kind_b) {
+        return contact_of<typename decltype(kind_a)::type, typename decltype(kind_b)::type>(a, b, margin, cache,
+                                                                                            result);
     });
-    if (answer == PairAnswer::unknown) return bounding_balls_apart(a, b, margin);
-    if (answer == PairAnswer::no) return true;
-    write(distance, points, result);
-    write_features(found, result);
-    return true;
+    return answer != PairAnswer::unknown || bounding_balls_apart(a, b, margin);
 }
 
 }  // namespace abut::detail

@@ -11,6 +11,8 @@
 #include <abut/shape/capsule.hpp>
 #include <abut/shape/segment.hpp>
 
+#include <type_traits>
+
 namespace abut::detail {
 
 /// Whether the shape has a core of convex/pairs/placed_cores.hpp.
@@ -19,32 +21,60 @@ inline bool has_core(const ShapeRef<3>& given) {
            given.kind == ShapeKind::box;
 }
 
-inline PlacedSegment placed_segment(const Vec3& from, const Vec3& to, const float& radius, const Pose3* pose) {
+/// The core of a plain shape, without its pose.
+template <class Core>
+Core core_in_place(const ShapeRef<3>& given) {
     using namespace lanes;
-    if (pose == nullptr) return {loaded(from), loaded(to), loaded_twice(radius)};
-    Affine<3> place;
-    set_affine(place, *pose);
-    return {double3(place.point(DVec<3>(from))), double3(place.point(DVec<3>(to))), loaded_twice(radius)};
+    if constexpr (std::is_same_v<Core, PlacedBox>) {
+        const Box3& box = given.as<Box3>();
+        return {box.center, box.half, box.rotation};
+    } else if constexpr (std::is_same_v<Core, PlacedBall>) {
+        const Sphere& ball = given.as<Sphere>();
+        return {loaded(ball.center), loaded_twice(ball.radius)};
+    } else {
+        // A segment has the members of a capsule but the radius.
+        const bool round = given.kind == ShapeKind::capsule;
+        const Vec3& from = round ? given.as<Capsule3>().a : given.as<Segment<3>>().a;
+        const Vec3& to = round ? given.as<Capsule3>().b : given.as<Segment<3>>().b;
+        return {loaded(from), loaded(to), round ? loaded_twice(given.as<Capsule3>().radius) : double2(0)};
+    }
 }
 
-/// Places each like `convex(shape, pose)`.
-template <class Visit>
-inline bool with_core(const ShapeRef<3>& given, const Visit& visit) {
-    using namespace lanes;
-    if (given.kind == ShapeKind::box) {
+/// With its pose, like `convex(shape, pose)`.
+template <class Core>
+Core core_of(const ShapeRef<3>& given) {
+    if (given.pose == nullptr) return core_in_place<Core>(given);
+    if constexpr (std::is_same_v<Core, PlacedBox>) {
         const Box3& box = given.as<Box3>();
-        if (given.pose == nullptr) return visit(PlacedBox(box.center, box.half, box.rotation));
-        return visit(PlacedBox(convex(box, *given.pose).place, 1, box.half, 0));
+        return {convex(box, *given.pose).place, 1, box.half, 0};
+    } else {
+        Affine<3> place;
+        set_affine(place, *given.pose);
+        const auto put_in_place = [&](lanes::Double3& point) {
+            point = lanes::double3(place.point(lanes::vector(point)));
+        };
+        Core core = core_in_place<Core>(given);
+        if constexpr (std::is_same_v<Core, PlacedBall>) {
+            put_in_place(core.center);
+        } else {
+            put_in_place(core.from);
+            put_in_place(core.to);
+        }
+        return core;
     }
-    if (given.kind == ShapeKind::ball) {
-        const Sphere& ball = given.as<Sphere>();
-        if (given.pose == nullptr) return visit(PlacedBall{loaded(ball.center), loaded_twice(ball.radius)});
-        return visit(PlacedBall{double3(placed<3>(DVec<3>(ball.center), *given.pose)), loaded_twice(ball.radius)});
-    }
-    if (given.kind == ShapeKind::segment)
-        return visit(placed_segment(given.as<Segment<3>>().a, given.as<Segment<3>>().b, 0, given.pose));
-    const Capsule3& capsule = given.as<Capsule3>();
-    return visit(placed_segment(capsule.a, capsule.b, capsule.radius, given.pose));
+}
+
+/// Calls visit(type_identity<core of A>, type_identity<core of B>) for shapes that have cores. Returns its answer, or
+/// `otherwise`.
+template <class Answer, class Visit>
+Answer with_kinds(const ShapeRef<3>& a, const ShapeRef<3>& b, Answer otherwise, const Visit& visit) {
+    const auto with_kind = [&](const ShapeRef<3>& given, const auto& go_on) {
+        if (given.kind == ShapeKind::box) return go_on(std::type_identity<PlacedBox>());
+        if (given.kind == ShapeKind::ball) return go_on(std::type_identity<PlacedBall>());
+        return go_on(std::type_identity<PlacedSegment>());
+    };
+    if (!has_core(a) || !has_core(b)) return otherwise;
+    return with_kind(a, [&](auto kind_a) { return with_kind(b, [&](auto kind_b) { return visit(kind_a, kind_b); }); });
 }
 
 inline bool distance_of(const PlacedBox& a, const PlacedBox& b, Cache* cache, CoresDistance& found) {
@@ -78,20 +108,18 @@ PairAnswer overlap_of(const A& a, const B& b, Cache*) {
 }
 
 /// Calls visit(core of A, core of B), which returns bool. Returns false for other shapes.
-template <class Shape, class Visit>
-bool with_cores(const Shape& a, const Shape& b, const Visit& visit) {
+template <class Visit>
+bool with_cores(const Convex<3>& a, const Convex<3>& b, const Visit& visit) {
     return has_core(a) && has_core(b) && with_core(a, [&](const auto& core_a) {
                return with_core(b, [&](const auto& core_b) { return visit(core_a, core_b); });
            });
 }
 
-template <class Shape>
-bool distance_of_cores(const Shape& a, const Shape& b, Cache* cache, CoresDistance& found) {
+inline bool distance_of_cores(const Convex<3>& a, const Convex<3>& b, Cache* cache, CoresDistance& found) {
     return with_cores(a, b, [&](const auto& x, const auto& y) { return distance_of(x, y, cache, found); });
 }
 
-template <class Shape>
-PairAnswer overlap_of_cores(const Shape& a, const Shape& b, Cache* cache) {
+inline PairAnswer overlap_of_cores(const Convex<3>& a, const Convex<3>& b, Cache* cache) {
     PairAnswer answer = PairAnswer::unknown;
     with_cores(a, b, [&](const auto& x, const auto& y) {
         answer = overlap_of(x, y, cache);
