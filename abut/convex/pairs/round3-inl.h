@@ -54,8 +54,8 @@ inline void nearest_from_inside(const DVec<3>& half, const DVec<3>& point, BoxCl
     place.part = {sign < 0 ? 1u << nearest : 0, 7u ^ 1u << nearest};
 }
 
-inline void set_ball_and_box(const PlacedBox& box, const PlacedBall& ball, const BoxClosestPoint& place, bool outside,
-                             CoresDistance& found) {
+[[gnu::always_inline]] inline void set_ball_and_box(const PlacedBox& box, const PlacedBall& ball,
+                                                    const BoxClosestPoint& place, bool outside, CoresDistance& found) {
     using namespace lanes;
     const Double3 offset = box.axes.vector(place.offset);
     found.distance = place.distance;
@@ -75,13 +75,13 @@ bool short_distance(const A&, const B&, CoresDistance&) {
 inline bool short_distance(const PlacedBall& a, const PlacedBall& b, CoresDistance& found) {
     return distance_of(a, b, found);
 }
-inline bool short_distance(const PlacedBox& box, const PlacedBall& ball, CoresDistance& found) {
+[[gnu::always_inline]] inline bool short_distance(const PlacedBox& box, const PlacedBall& ball, CoresDistance& found) {
     BoxClosestPoint place;
     if (!nearest_from_outside(box.half, box.axes.transposed(ball.center - box.center), place)) return false;
     set_ball_and_box(box, ball, place, true, found);
     return true;
 }
-inline bool short_distance(const PlacedBall& ball, const PlacedBox& box, CoresDistance& found) {
+[[gnu::always_inline]] inline bool short_distance(const PlacedBall& ball, const PlacedBox& box, CoresDistance& found) {
     if (!short_distance(box, ball, found)) return false;
     flip(found);
     return true;
@@ -105,7 +105,8 @@ inline CoreFeature segment_feature(double part) {
 /// The closest points: the ends of the common perpendicular, or an end and its projection. Returns false, with `found`
 /// undefined, if the segments nearly cross, are nearly parallel, very large or small, or not finite. Ericson, Real-Time
 /// Collision Detection (2005), 5.1.9.
-inline bool short_distance(const PlacedSegment& a, const PlacedSegment& b, CoresDistance& found) {
+[[gnu::always_inline]] inline bool short_distance(const PlacedSegment& a, const PlacedSegment& b,
+                                                  CoresDistance& found) {
     using namespace lanes;
     // Squares of the sine of their angle, and of the gap relative to their lengths. Within these limits rounding moves
     // the closest points along the segments by at most 1e-9 of their distance.

@@ -31,7 +31,7 @@ void write_features(const CoresDistance& found, Answer& result) {
     result.feature_b = core_features[(found.part_b.free ^ 7u) + 8 * found.part_b.low];
 }
 
-void write_closest(const CoresDistance& found, Closest<3>& result) {
+[[gnu::always_inline]] inline void write_closest(const CoresDistance& found, Closest<3>& result) {
     result.distance = static_cast<float>(found.distance[0]);
     store(found.normal, result.normal);
     store(found.on_a, result.on_a);

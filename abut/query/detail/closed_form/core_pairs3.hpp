@@ -23,7 +23,7 @@ inline bool has_core(const ShapeRef<3>& given) {
 
 /// The core of a plain shape, without its pose.
 template <class Core>
-Core core_in_place(const ShapeRef<3>& given) {
+[[gnu::always_inline]] inline Core core_in_place(const ShapeRef<3>& given) {
     using namespace lanes;
     if constexpr (std::is_same_v<Core, PlacedBox>) {
         const Box3& box = given.as<Box3>();
