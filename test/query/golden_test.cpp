@@ -178,10 +178,10 @@ std::uint64_t hash_of_answers() {
 class Golden : public oracle::BySimdTarget {};
 
 TEST_P(Golden, AnswersInThePlaneHaveTheSameBitsEverywhere) {
-    EXPECT_EQ(hash_of_answers<2>(), 2844938340580952247u);
+    EXPECT_EQ(hash_of_answers<2>(), 737845077273582515u);
 }
 TEST_P(Golden, AnswersInSpaceHaveTheSameBitsEverywhere) {
-    EXPECT_EQ(hash_of_answers<3>(), 8318504513432291356u);
+    EXPECT_EQ(hash_of_answers<3>(), 16095633304569548483u);
 }
 
 INSTANTIATE_TEST_SUITE_P(Targets, Golden, oracle::simd_targets(), oracle::simd_target_name);
