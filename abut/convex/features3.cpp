@@ -48,8 +48,7 @@ ClosestFeature<3> named(ClosestFeature<3> on_segment, std::uint32_t from, std::u
 /// here: the vertices of a hull's face aren't quite coplanar, so a short edge may have any direction.
 template <class Corner>
 bool is_within(const DVec<3>& place, const DVec<3>& normal, std::uint32_t count, const Corner& corner) {
-    const DVec<3> steep{std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)};
-    const int up = steep.x >= steep.y && steep.x >= steep.z ? 0 : (steep.y >= steep.z ? 1 : 2);
+    const int up = longest_axis(normal);
     const auto relative = [&](const DVec<3>& p) { return DVec<2>(p[(up + 1) % 3], p[(up + 2) % 3]); };
     const DVec<2> from = relative(place);
     bool result = false;

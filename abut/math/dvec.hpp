@@ -42,6 +42,15 @@ double largest(const glm::vec<D, double>& v) {
     return result;
 }
 
+/// The axis with the largest absolute coordinate, of several the first.
+template <int D>
+int longest_axis(const glm::vec<D, double>& v) {
+    int result = 0;
+    for (int i = 1; i < D; ++i)
+        if (std::abs(v[i]) > std::abs(v[result])) result = i;
+    return result;
+}
+
 template <int D>
 glm::vec<D, double> axis(int i, double sign = 1) {
     glm::vec<D, double> result(0.0);

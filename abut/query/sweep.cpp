@@ -29,24 +29,6 @@ void filter_normal(const MoverAtHit<D>& mover, const View<D>& shape, const DVec<
     hit.normal = filtered.normal;
 }
 
-/// A hit of shapes that overlap at the start and go further in.
-Hit<3> hit_inside(const Closest<3>& nearest) {
-    Hit<3> hit;
-    hit.point = to_float((DVec<3>(nearest.on_a) + DVec<3>(nearest.on_b)) * 0.5);
-    hit.normal = -nearest.normal;
-    hit.started_inside = true;
-    hit.feature = nearest.feature_b;
-    return hit;
-}
-
-/// The motion as a whole, of a hit during its last part.
-std::optional<Hit<3>> after(double time, double length, std::optional<Hit<3>> hit) {
-    if (!hit) return hit;
-    hit->fraction = static_cast<float>(std::min(time + (1 - time) * static_cast<double>(hit->fraction), 1.0));
-    hit->distance = static_cast<float>(time * length) + hit->distance;
-    return hit;
-}
-
 // Straight motions.
 
 /// The two motions of a query.
@@ -170,13 +152,13 @@ std::optional<Hit<3>> sweep_solid(const View<3>& a, const RigidPath<3>& path_a, 
         const DVec<3> place = (DVec<3>(nearest.on_a) + DVec<3>(nearest.on_b)) * 0.5;
         return dot(path_a.velocity(0, place) - path_b.velocity(0, place), DVec<3>(nearest.normal));
     };
-    const double speed = relative_motion_bounds(path_a, path_b, reach_of(a)).speed;
-    const SolidStart start = start_in_solid(moved(a, path_a.start), moved(b, path_b.start), speed, closest_at, closing);
-    if (!start.is_inside) return sweep_part_paths(a, path_a, b, path_b, options);
-    if (start.goes_in) return hit_inside(start.nearest);
-    if (start.time >= 1) return std::nullopt;
-    return after(start.time, length(path_a.move - path_b.move),
-                 sweep_part_paths(a, rest_of(path_a, start.time), b, rest_of(path_b, start.time), options));
+    const auto surface_hit = [&](double time) {
+        return time == 0 ? sweep_part_paths(a, path_a, b, path_b, options)
+                         : sweep_part_paths(a, rest_of(path_a, time), b, rest_of(path_b, time), options);
+    };
+    const double max_speed = relative_motion_bounds(path_a, path_b, reach_of(a)).speed;
+    return detail::sweep_solid(moved(a, path_a.start), moved(b, path_b.start), max_speed,
+                               length(path_a.move - path_b.move), closest_at, closing, surface_hit);
 }
 
 template <int D>
@@ -241,21 +223,20 @@ View<3> translated(const View<3>& shape, const DVec<3>& by) {
     return moved(shape, place);
 }
 
-/// Of shapes of which one is a solid: until they are parted, or from the start, the motion goes on like that of their
-/// parts.
 std::optional<Hit<3>> sweep_solid(const View<3>& a, const Vec3& motion_a, const View<3>& b, const Vec3& motion_b,
                                   const QueryOptions<3>& options) {
     const DVec<3> of_a(motion_a), of_b(motion_b);
     const double speed = length(of_a - of_b);
-    const SolidStart start = start_in_solid(
-        a, b, speed, [&](double time) { return closest(translated(a, of_a * time), translated(b, of_b * time)); },
-        [&](const Closest<3>& nearest) { return dot(of_a - of_b, DVec<3>(nearest.normal)); });
-    if (!start.is_inside) return sweep_parts(a, motion_a, b, motion_b, options);
-    if (start.goes_in) return hit_inside(start.nearest);
-    if (start.time >= 1) return std::nullopt;
-    return after(start.time, speed,
-                 sweep_parts(translated(a, of_a * start.time), to_float(of_a * (1 - start.time)),
-                             translated(b, of_b * start.time), to_float(of_b * (1 - start.time)), options));
+    const auto closest_at = [&](double time) {
+        return closest(translated(a, of_a * time), translated(b, of_b * time));
+    };
+    const auto closing = [&](const Closest<3>& nearest) { return dot(of_a - of_b, DVec<3>(nearest.normal)); };
+    const auto surface_hit = [&](double time) {
+        return time == 0 ? sweep_parts(a, motion_a, b, motion_b, options)
+                         : sweep_parts(translated(a, of_a * time), to_float(of_a * (1 - time)),
+                                       translated(b, of_b * time), to_float(of_b * (1 - time)), options);
+    };
+    return detail::sweep_solid(a, b, speed, speed, closest_at, closing, surface_hit);
 }
 
 }  // namespace

@@ -91,9 +91,8 @@ void ApproximateHull::insert_apex(std::uint32_t apex, std::uint32_t seen) {
 /// Projects the points along the axis closest to the normal and takes their 2D hull. Points on the line from a to b are
 /// represented by a and b.
 void ApproximateHull::build_flat(const DVec<3>& normal, std::uint32_t a, std::uint32_t b) {
-    const DVec<3> steep{std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)};
-    const int up = steep.x >= steep.y && steep.x >= steep.z ? 0 : (steep.y >= steep.z ? 1 : 2);
-    if (!(steep[up] > 0)) {
+    const int up = longest_axis(normal);
+    if (!(std::abs(normal[up]) > 0)) {
         flat_hull_ = {a, b};
     } else {
         std::vector<Vec2> flat;

@@ -95,8 +95,7 @@ public:
 private:
     bool inside(std::size_t cap, const DVec<3>& p) const {
         const DVec<3>& normal = piece_.cap_normals[cap];
-        const DVec<3> steep{std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)};
-        const int up = steep.x >= steep.y && steep.x >= steep.z ? 0 : (steep.y >= steep.z ? 1 : 2);
+        const int up = longest_axis(normal);
         const int u = (up + 1) % 3, v = (up + 2) % 3;
         int winding = 0;
         for (const auto& [a, b] : outlines_[cap]) {

@@ -63,12 +63,6 @@ DVec<D> max_corner(std::span<const glm::vec<D, float>> points) {
     return result;
 }
 
-/// The axis with the largest absolute coordinate, of several the first.
-inline int longest_axis(const DVec<3>& v) {
-    const DVec<3> steep{std::abs(v.x), std::abs(v.y), std::abs(v.z)};
-    return steep.x >= steep.y && steep.x >= steep.z ? 0 : (steep.y >= steep.z ? 1 : 2);
-}
-
 /// The longest side of the bounding box.
 template <int D>
 double extent(std::span<const Vec<D>> points) {

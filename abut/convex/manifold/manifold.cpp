@@ -99,8 +99,7 @@ std::array<std::size_t, 2> selected(const ManifoldCandidates<2>& all, std::size_
 
 /// The deepest, and the three that make the largest quadrilateral with it, seen along the normal.
 std::array<std::size_t, 4> selected(const ManifoldCandidates<3>& all, std::size_t deepest, const DVec<3>& normal) {
-    const DVec<3> steep{std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)};
-    const int up = steep.x >= steep.y && steep.x >= steep.z ? 0 : (steep.y >= steep.z ? 1 : 2);
+    const int up = longest_axis(normal);
     const int u = (up + 1) % 3, v = (up + 2) % 3;
     const double slope_u = normal[u] / normal[up], slope_v = normal[v] / normal[up];
     std::array<double, Face<3>::capacity + 1> x, y;

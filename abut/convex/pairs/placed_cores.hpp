@@ -41,6 +41,14 @@ struct CoreFeature {
     std::uint32_t low = 0, free = 0;
 };
 
+/// The end or the edge at a parameter from 0 to 1, by masks: compilers turn conditions into branches, which can't be
+/// predicted.
+inline CoreFeature segment_feature(lanes::Double2 part) {
+    const std::uint32_t started = lanes::bits(part > lanes::Double2{0, 0}) & 1u;
+    const std::uint32_t ended = lanes::bits(part >= lanes::Double2{1, 1}) & 1u;
+    return {ended, started ^ ended};
+}
+
 /// The signed distance of two cores with their balls, and the features at the closest points.
 struct CoresDistance {
     lanes::Double2 distance;

@@ -4,8 +4,6 @@
 
 #include <abut/convex/pairs/round3.hpp>
 
-#include <bit>
-
 namespace abut::detail {
 
 inline bool distance_of(const PlacedBall& a, const PlacedBall& b, CoresDistance& found) {
@@ -95,13 +93,6 @@ inline bool distance_of(const PlacedBox& box, const PlacedBall& ball, CoresDista
     return lanes::finite(box.half.xy + box.half.z);
 }
 
-/// The end or the edge at a parameter in [0, 1], by its bits, because a branch can't be predicted.
-inline CoreFeature segment_feature(double part) {
-    const auto bits = std::bit_cast<std::uint64_t>(part), end = std::bit_cast<std::uint64_t>(1.0);
-    const std::uint32_t at_end = bits == end ? 1 : 0;
-    return {at_end, (bits != 0 ? 1u : 0u) ^ at_end};
-}
-
 /// The closest points: the ends of the common perpendicular, or an end and its projection. Returns false, with `found`
 /// undefined, if the segments nearly cross, are nearly parallel, very large or small, or not finite. Ericson, Real-Time
 /// Collision Detection (2005), 5.1.9.
@@ -135,8 +126,8 @@ inline CoreFeature segment_feature(double part) {
     found.distance = gap;
     found.normal = between * (gap * (1 / apart));
     found.on_a = a.from + on_a;
-    found.part_a = segment_feature(part_a[0]);
-    found.part_b = segment_feature(part_b[0]);
+    found.part_a = segment_feature(part_a);
+    found.part_b = segment_feature(part_b);
     add_balls(a.radius, b.radius, found);
     return true;
 }

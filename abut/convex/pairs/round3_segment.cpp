@@ -7,11 +7,6 @@ double part_of(double along, double whole) {
     return whole > 0 ? std::clamp(along / whole, 0.0, 1.0) : 0.0;
 }
 
-/// The end or the edge at a parameter.
-CoreFeature feature_at(double part) {
-    return {part >= 1 ? 1u : 0u, part > 0 && part < 1 ? 1u : 0u};
-}
-
 /// The unit normal of both, if it is reliable; else zero.
 DVec<3> across_both(const DVec<3>& u, const DVec<3>& v) {
     const DVec<3> across = cross(u, v);
@@ -45,7 +40,7 @@ bool distance_of(const PlacedSegment& segment, const PlacedBall& ball, CoresDist
     const DVec<3> w = lanes::vector(ball.center) - from;
     const double uu = dot(u, u), uw = dot(u, w);
     const double part = uw <= 0 ? 0 : uw >= uu ? 1 : uw / uu;
-    found.part_a = feature_at(part);
+    found.part_a = segment_feature(lanes::double2(part));
     found.part_b = {};
     DVec<3> on_segment = u * part, between = w - on_segment;
     double gap = length(between);
@@ -96,8 +91,8 @@ bool distance_of_any_segments(const PlacedSegment& a, const PlacedSegment& b, Co
     found.distance = lanes::double2(closest.gap);
     found.normal = lanes::double3(closest.normal);
     found.on_a = a.from + lanes::double3(closest.on_a);
-    found.part_a = feature_at(closest.places.on_a);
-    found.part_b = feature_at(closest.places.on_b);
+    found.part_a = segment_feature(lanes::double2(closest.places.on_a));
+    found.part_b = segment_feature(lanes::double2(closest.places.on_b));
     add_balls(a.radius, b.radius, found);
     return true;
 }

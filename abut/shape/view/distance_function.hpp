@@ -66,7 +66,6 @@ struct DistanceBound {
 
 /// The result of a bound query for a box.
 enum class DistanceBoundStatus : std::uint8_t {
-    unknown,        ///< nothing but the distances and the slope is known
     box_too_large,  ///< the box is too large for a plane bound; only `lower_bound` is valid
     divided,        ///< the pieces were visited
     valid,

@@ -69,15 +69,6 @@ AnyShape<3> random_convex(std::size_t kind, oracle::Random& random, float size) 
     }
 }
 
-/// The deepest overlap of a shape with a convex part of a piece, or else the least gap.
-template <class Shape>
-float distance_of_parts(const scenes::KitPiece& piece, const Pose3& pose, const Shape& shape) {
-    float least = std::numeric_limits<float>::infinity();
-    for (const scenes::KitPart& part : piece.parts)
-        least = std::min(least, closest(at(*Polyhedron::build(part.points), pose), shape).distance);
-    return least;
-}
-
 TEST(SolidConvex, IsAsDeepAsInTheParts) {
     constexpr std::uint64_t seed = 20281;
     SCOPED_TRACE(seed);

@@ -60,14 +60,12 @@ TEST(SolidOverlap, OfAKitIsExact) {
 }
 
 /// The deepest overlap, or else the least gap, of two parts of two pieces, as polyhedra.
-float distance_of_parts(const Kit& kit, const scenes::KitPlacement& a, const Pose3& pose_a,
-                        const scenes::KitPlacement& b, const Pose3& pose_b) {
+float distance_of_pieces(const Kit& kit, const scenes::KitPlacement& a, const Pose3& pose_a,
+                         const scenes::KitPlacement& b, const Pose3& pose_b) {
     float least = std::numeric_limits<float>::infinity();
-    for (const scenes::KitPart& part_a : kit.pieces[a.piece].parts)
-        for (const scenes::KitPart& part_b : kit.pieces[b.piece].parts)
-            least = std::min(least, closest(at(*Polyhedron::build(part_a.points), pose_a),
-                                            at(*Polyhedron::build(part_b.points), pose_b))
-                                        .distance);
+    for (const scenes::KitPart& part : kit.pieces[b.piece].parts)
+        least = std::min(least,
+                         distance_of_parts(kit.pieces[a.piece], pose_a, at(*Polyhedron::build(part.points), pose_b)));
     return least;
 }
 
@@ -83,7 +81,7 @@ TEST(SolidOverlap, OfTurnedPiecesIsThatOfTheirParts) {
         const Pose3 pose_a{pair.a.position + far, random.rotation<3>()},
             pose_b{pair.b.position + far, random.rotation<3>()};
         const auto a = at(solid(kit.meshes[pair.a.piece]), pose_a), b = at(solid(kit.meshes[pair.b.piece]), pose_b);
-        const float expected = distance_of_parts(kit, pair.a, pose_a, pair.b, pose_b);
+        const float expected = distance_of_pieces(kit, pair.a, pose_a, pair.b, pose_b);
         const float distance = closest(a, b).distance;
         if (expected > 0) {
             ++apart;

@@ -3,8 +3,13 @@
 // Pairs of pieces of the kit, for the tests of solids.
 
 #include "../../oracle/kit_pairs.hpp"
+#include <abut/query/closest.hpp>
+#include <abut/shape/placed.hpp>
+#include <abut/shape/polyhedron.hpp>
 #include <abut/shape/solid_mesh.hpp>
 
+#include <algorithm>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -44,6 +49,15 @@ struct KitPair {
         return one(a) + ", " + one(b);
     }
 };
+
+/// The deepest overlap of a shape with a convex part of a piece, or else the least gap.
+template <class Shape>
+float distance_of_parts(const scenes::KitPiece& piece, const Pose3& pose, const Shape& shape) {
+    float least = std::numeric_limits<float>::infinity();
+    for (const scenes::KitPart& part : piece.parts)
+        least = std::min(least, closest(at(*Polyhedron::build(part.points), pose), shape).distance);
+    return least;
+}
 
 /// A piece as a solid at its place, which refers to the mesh.
 inline auto placed(const Kit& kit, const scenes::KitPlacement& placement) {

@@ -15,14 +15,6 @@ inline constexpr int search_max_descent_steps = 24, search_max_halvings = 10, se
 inline constexpr double estimate_tolerance = 1e-4;
 
 template <int D>
-int longest_axis(const DVec<D>& half) {
-    int result = 0;
-    for (int i = 1; i < D; ++i)
-        if (half[i] > half[result]) result = i;
-    return result;
-}
-
-template <int D>
 struct SearchBox {
     DVec<D> center, half;
     double lower_bound;  ///< of the function in the box

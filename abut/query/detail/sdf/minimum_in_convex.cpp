@@ -94,11 +94,11 @@ private:
             DVec<D> from_box;
             for (int a = 0; a < D; ++a)
                 from_box[a] = point[a] - std::clamp(point[a], box.center[a] - box.half[a], box.center[a] + box.half[a]);
-            const DVec<D> near = lowest(from_box), way = near - point;
+            const DVec<D> near = lowest(from_box), step_to = near - point;
             if (dot(from_box, near - box.center) > sum_along(from_box, box.half)) return true;
-            const double square = length_squared(way);
+            const double square = length_squared(step_to);
             if (!(square > 0)) return false;
-            point += way * std::clamp(-dot(from_box, way) / square, 0.0, 1.0);
+            point += step_to * std::clamp(-dot(from_box, step_to) / square, 0.0, 1.0);
         }
         return false;
     }

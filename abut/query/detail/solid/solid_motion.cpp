@@ -16,25 +16,39 @@ constexpr int max_advances = 64;
 /// A motion of at most this slope relative to the normal slides.
 constexpr double slide_slope = 1e-6;
 
+/// A hit of shapes that overlap at the start and go further in.
+Hit<3> hit_inside(const Closest<3>& nearest) {
+    Hit<3> hit;
+    hit.point = to_float((DVec<3>(nearest.on_a) + DVec<3>(nearest.on_b)) * 0.5);
+    hit.normal = -nearest.normal;
+    hit.started_inside = true;
+    hit.feature = nearest.feature_b;
+    return hit;
+}
+
 }  // namespace
 
-SolidStart start_in_solid(const View<3>& a, const View<3>& b, double max_speed,
-                          FunctionRef<Closest<3>(double time)> closest_at,
-                          FunctionRef<double(const Closest<3>& nearest)> closing) {
-    SolidStart result;
-    if (!overlaps(bounds(a), bounds(b)) || !(max_speed > 0)) return result;
-    result.nearest = closest_at(0);
+std::optional<Hit<3>> sweep_solid(const View<3>& a, const View<3>& b, double max_speed, double length,
+                                  FunctionRef<Closest<3>(double time)> closest_at,
+                                  FunctionRef<double(const Closest<3>& nearest)> closing,
+                                  FunctionRef<std::optional<Hit<3>>(double time)> surface_hit) {
+    if (!overlaps(bounds(a), bounds(b)) || !(max_speed > 0)) return surface_hit(0);
+    const Closest<3> nearest = closest_at(0);
     const double tolerance = solid_tolerance(a, b);
-    double depth = -static_cast<double>(result.nearest.distance);
-    result.is_inside = depth > tolerance;
-    if (!result.is_inside) return result;
-    result.goes_in = closing(result.nearest) > slide_slope * max_speed;
-    if (result.goes_in) return result;
-    for (int i = 0; i < max_advances && depth > tolerance && result.time < 1; ++i) {
-        result.time += depth / max_speed;
-        if (result.time < 1) depth = -static_cast<double>(closest_at(result.time).distance);
+    double depth = -static_cast<double>(nearest.distance), time = 0;
+    if (!(depth > tolerance)) return surface_hit(0);
+    if (closing(nearest) > slide_slope * max_speed) return hit_inside(nearest);
+    for (int i = 0; i < max_advances && depth > tolerance && time < 1; ++i) {
+        time += depth / max_speed;
+        if (time < 1) depth = -static_cast<double>(closest_at(time).distance);
     }
-    return result;
+    if (time >= 1) return std::nullopt;
+    std::optional<Hit<3>> hit = surface_hit(time);
+    if (hit) {
+        hit->fraction = static_cast<float>(std::min(time + (1 - time) * static_cast<double>(hit->fraction), 1.0));
+        hit->distance = static_cast<float>(time * length) + hit->distance;
+    }
+    return hit;
 }
 
 bool enter_solid(const DRay<3>& beam, const Composite<3>& solid,
@@ -73,7 +87,7 @@ bool enter_solid(const DRay<3>& beam, const Composite<3>& solid,
         if (dot(DVec<3>(depth.normal), beam.direction) < -slide_slope)
             return hit_at_start(depth, DVec<3>(depth.normal), true);
     }
-    // A hit on the way out or along isn't an entry, nor is one inside of a component that overlaps another.
+    // A hit where the ray leaves or slides isn't an entry, nor is one inside of a component that overlaps another.
     double passed = 0;
     for (int i = 0; i < max_advances; ++i) {
         const DRay<3> rest{beam.at(passed), beam.direction, beam.length - passed};

@@ -4,25 +4,24 @@
 
 #include <abut/query/closest.hpp>
 #include <abut/query/detail/raycast/part_hit.hpp>
+#include <abut/query/hit.hpp>
+
+#include <optional>
 
 namespace abut::detail {
 
-/// How a motion of two shapes, one a solid, begins.
-struct SolidStart {
-    bool is_inside = false;  ///< deeper than the tolerance
-    bool goes_in = false;    ///< and the motion goes further in
-    double time = 0;         ///< else the shapes are parted by then; 1 or more if they are not during the motion
-    Closest<3> nearest;      ///< at the start
-};
-
-/// The start of a motion over time 0 to 1. `closest_at` is the answer of `closest` at a time; `closing` is the speed at
-/// which A approaches B along the normal at the start; `max_speed` bounds the speed of all points.
+/// The hit of a motion of two shapes, one a solid, over time 0 to 1. `max_speed` bounds the speed of all points, and
+/// `length` is that of the whole relative motion. `closest_at` is the answer of `closest` at a time; `closing` is the
+/// speed at which A approaches B along the normal at the start. `surface_hit` is the hit of the surfaces during the
+/// motion from a time on.
 ///
-/// A depth is a lower bound of the way to a place where the shapes are parted. So the motion goes on by that length,
-/// and repeats from there, at most 64 times. After that it counts as parted.
-SolidStart start_in_solid(const View<3>& a, const View<3>& b, double max_speed,
-                          FunctionRef<Closest<3>(double time)> closest_at,
-                          FunctionRef<double(const Closest<3>& nearest)> closing);
+/// Shapes that overlap at the start hit at once if they go further in. Otherwise only a hit after they are parted
+/// counts. A depth is a lower bound of the path to where they are parted, so the motion goes on by that length, and
+/// again from there, at most 64 times. After that it counts as parted.
+std::optional<Hit<3>> sweep_solid(const View<3>& a, const View<3>& b, double max_speed, double length,
+                                  FunctionRef<Closest<3>(double time)> closest_at,
+                                  FunctionRef<double(const Closest<3>& nearest)> closing,
+                                  FunctionRef<std::optional<Hit<3>>(double time)> surface_hit);
 
 /// The first point at which a ray enters a solid. `surface_hit` finds the first hit of its triangles, from either
 /// side.

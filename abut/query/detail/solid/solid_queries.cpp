@@ -77,14 +77,23 @@ Contact<3> contact_of(const Vec3& normal, float depth, const SolidContactArea& a
     return result;
 }
 
+/// The contact at the middle between the closest points, for shapes whose contact area isn't known.
+Contact<3> midpoint_contact(const Closest<3>& nearest) {
+    Contact<3> result;
+    result.normal = nearest.normal;
+    result.depth = 0 - nearest.distance;
+    result.feature_a = nearest.feature_a;
+    result.feature_b = nearest.feature_b;
+    result.points.push_back({to_float((DVec<3>(nearest.on_a) + DVec<3>(nearest.on_b)) * 0.5), result.depth, 0});
+    return result;
+}
+
 Contact<3> exact_contact(const View<3>& a, const View<3>& b, const Closest<3>& nearest) {
     const DVec<3> normal(nearest.normal);
     const PlacedSolid solid_a(a), solid_b(b);
-    Contact<3> result = contact_of(nearest.normal, 0 - nearest.distance,
-                                   contact_area(solid_a, solid_b, move_of(nearest), normal, solid_tolerance(a, b)));
-    if (result.points.empty())
-        result.points.push_back({to_float((DVec<3>(nearest.on_a) + DVec<3>(nearest.on_b)) * 0.5), result.depth, 0});
-    return result;
+    const SolidContactArea area = contact_area(solid_a, solid_b, move_of(nearest), normal, solid_tolerance(a, b));
+    return area.manifold.count == 0 ? midpoint_contact(nearest)
+                                    : contact_of(nearest.normal, 0 - nearest.distance, area);
 }
 
 void each_exact_contact(const View<3>& a, const View<3>& b, float margin, const Closest<3>& nearest,
@@ -129,30 +138,17 @@ void each_convex_contact(const View<3>& solid, const Convex<3>& set, float margi
         any = true;
         return visit(contact);
     });
-    if (any) return;
-    Contact<3> contact;
-    contact.normal = nearest.normal;
-    contact.depth = 0 - nearest.distance;
-    contact.feature_a = nearest.feature_a;
-    contact.feature_b = nearest.feature_b;
-    contact.points.push_back({to_float((DVec<3>(nearest.on_a) + DVec<3>(nearest.on_b)) * 0.5), contact.depth, 0});
-    visit(contact);
+    if (!any) visit(midpoint_contact(nearest));
 }
 
-/// Of these contacts, the one with the normal of the move that parts the two, or else all points as one.
+/// The contact at the points of the one of these whose normal is that of the move that parts the two.
 Contact<3> convex_contact(const View<3>& solid, const Convex<3>& set, const Closest<3>& nearest) {
-    Contact<3> result;
-    result.normal = nearest.normal;
-    result.depth = 0 - nearest.distance;
-    result.feature_a = nearest.feature_a;
-    result.feature_b = nearest.feature_b;
+    Contact<3> result = midpoint_contact(nearest);
     each_convex_contact(solid, set, 0, nearest, [&](const Contact<3>& contact) {
         if (glm::dot(contact.normal, nearest.normal) < 0.9999f) return true;
         result.points = contact.points;
         return false;
     });
-    if (result.points.empty())
-        result.points.push_back({to_float((DVec<3>(nearest.on_a) + DVec<3>(nearest.on_b)) * 0.5), result.depth, 0});
     return result;
 }
 

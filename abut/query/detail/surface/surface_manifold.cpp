@@ -64,8 +64,7 @@ std::array<double, 2> along_directions(const DVec<2>& position, const DVec<2>& n
     return {along, -along};
 }
 std::array<double, 16> along_directions(const DVec<3>& position, const DVec<3>& normal) {
-    const DVec<3> steep{std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)};
-    const int up = steep.x >= steep.y && steep.x >= steep.z ? 0 : (steep.y >= steep.z ? 1 : 2);
+    const int up = longest_axis(normal);
     const int u = (up + 1) % 3, v = (up + 2) % 3;
     const double x = position[u] - position[up] * (normal[u] / normal[up]);
     const double y = position[v] - position[up] * (normal[v] / normal[up]);
