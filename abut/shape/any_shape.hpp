@@ -38,6 +38,8 @@ public:
     View<D> moved(const detail::Affine<D>& rigid) const { return stored_->moved(rigid); }
     /// The bounding box of the shape at a pose; empty if a number is NaN or infinite.
     Aabb<D> bounds(const Pose<D>& pose) const { return stored_->bounds(pose); }
+    /// Whether both are copies of one AnyShape, which share its data.
+    bool is_shared_with(const AnyShape& other) const { return stored_.operator->() == other.stored_.operator->(); }
 
 private:
     struct Stored : detail::Counted {

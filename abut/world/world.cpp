@@ -71,16 +71,21 @@ void World<D>::add_to_boxes(std::uint32_t slot) {
     query_count_.set_limit(query_limit());
 }
 
-/// Sets an item's data that depend on its shape.
+/// Begins anew with an item whose shape is new.
 template <int D>
 void World<D>::reset_item(std::uint32_t slot) {
     Item& item = items_[slot];
-    const View<D> own = item.stored.view();
-    item.type = shape_type(own);
-    item.local_ball = detail::SmallBall<D>::around(detail::bounding_ball(own));
+    set_shape_data(item);
     item.settled = false;
     item.previous = none;
     update_box(slot);
+}
+
+template <int D>
+void World<D>::set_shape_data(Item& item) {
+    const View<D> own = item.stored.view();
+    item.type = shape_type(own);
+    item.local_ball = detail::SmallBall<D>::around(detail::bounding_ball(own));
 }
 
 template <int D>
@@ -88,6 +93,7 @@ void World<D>::set_any_shape(Id id, const AnyShape<D>& shape) {
     Item* item = find(id);
     ABUT_ASSERT(item != nullptr);
     if (item == nullptr) return;
+    release_shape(id.index - 1);
     item->stored = shape;
     reset_item(id.index - 1);
 }
@@ -118,16 +124,23 @@ void World<D>::set_filter(Id id, std::uint32_t layers, std::uint32_t mask) {
 
 template <int D>
 void World<D>::remove(Id id) {
-    Item* item = find(id);
-    ABUT_ASSERT(item != nullptr);
-    if (item == nullptr) return;
-    const AnyShape<D> released = std::move(item->stored);
-    item->in_use = false;
-    boxes_of(*item).remove(item->place);
-    continuous_ -= item->continuous ? 1 : 0;
-    item->previous = none;
+    const bool is_valid = contains(id);
+    ABUT_ASSERT(is_valid);
+    if (!is_valid) return;
+    free_slot(id.index - 1);
     mark_pending(id.index - 1);
     free_.push_back(id.index - 1);
+}
+
+template <int D>
+void World<D>::free_slot(std::uint32_t slot) {
+    Item& item = items_[slot];
+    release_shape(slot);
+    const AnyShape<D> released = std::move(item.stored);
+    item.in_use = false;
+    boxes_of(item).remove(item.place);
+    continuous_ -= item.continuous ? 1 : 0;
+    item.previous = none;
     --count_;
 }
 

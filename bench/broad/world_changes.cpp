@@ -1,5 +1,5 @@
-// The cost of changes to a World: a move with its update, and queries between a move and the update, compared with
-// queries of an updated world.
+// The cost of changes to a World: a move with its update, queries between a move and the update, compared with queries
+// of an updated world, and snapshots.
 
 #include "../../scenes/moving_boxes.hpp"
 #include "broad.hpp"
@@ -141,6 +141,35 @@ Job moves() {
             .sides = {side("abut", false), side("abut update", true)}};
 }
 
+/// Saves a world, or returns all its items to their places after they moved: by a snapshot, or by moves.
+Job snapshots(bool saves) {
+    using Boxes = ChangingWorld<Box3>;
+    const auto side = [saves](std::string who, bool by_moves) -> Side {
+        const auto changing = std::make_shared<Boxes>();
+        const auto bytes = std::make_shared<std::vector<std::byte>>(changing->world.save());
+        const auto poses = std::make_shared<std::vector<Pose3>>();
+        for (const Id id : changing->ids) poses->push_back(changing->world.pose(id));
+        const auto run = [=](std::span<double> values) {
+            if (saves)
+                changing->world.save(*bytes);
+            else if (by_moves)
+                for (std::size_t i = 0; i < items; ++i) changing->world.move(changing->ids[i], (*poses)[i]);
+            else if (changing->world.restore(*bytes))
+                return;
+            values[0] = static_cast<double>(changing->world.pose(changing->ids[items / 2]).position.x);
+        };
+        const auto prepare = [=] {
+            if (saves) return;
+            changing->boxes.step();
+            changing->move_all();
+        };
+        return {std::move(who), run, prepare};
+    };
+    Job job{.items = items, .values = 1, .rounds = 4, .frames = 10, .tolerance = 0, .sides = {side("abut", false)}};
+    if (!saves) job.sides.push_back(side("abut moves", true));
+    return job;
+}
+
 }  // namespace
 
 std::vector<Bench> world_change_benches() {
@@ -151,6 +180,8 @@ std::vector<Bench> world_change_benches() {
         {"broad/world/between/overlap/3d/5000", [] { return queries_between_moves(Query::overlap); }},
         {"broad/world/move/balls/3d/5000", [] { return moves<Sphere>(); }},
         {"broad/world/move/boxes/3d/5000", [] { return moves<Box3>(); }},
+        {"broad/world/save/3d/5000", [] { return snapshots(true); }},
+        {"broad/world/restore/3d/5000", [] { return snapshots(false); }},
     };
 }
 

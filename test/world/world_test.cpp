@@ -12,7 +12,8 @@
 namespace abut::test {
 namespace {
 
-static_assert(!std::is_copy_constructible_v<World2> && std::is_nothrow_move_constructible_v<World2>);
+static_assert(std::is_copy_constructible_v<World2> && std::is_copy_assignable_v<World2> &&
+              std::is_nothrow_move_constructible_v<World2>);
 
 TEST(World, StoresItemsById) {
     World3 world;

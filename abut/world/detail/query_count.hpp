@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
-#include <utility>
 
 namespace abut::detail {
 
@@ -18,8 +17,8 @@ inline constexpr std::uint32_t ray_weight = 10, region_weight = 1;
 class QueryCount {
 public:
     QueryCount() = default;
-    QueryCount(QueryCount&& other) noexcept { *this = std::move(other); }
-    QueryCount& operator=(QueryCount&& other) noexcept {
+    QueryCount(const QueryCount& other) noexcept { *this = other; }
+    QueryCount& operator=(const QueryCount& other) noexcept {
         count_.store(other.count_.load(std::memory_order_relaxed), std::memory_order_relaxed);
         limit_ = other.limit_;
         return *this;
