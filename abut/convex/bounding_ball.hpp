@@ -2,6 +2,7 @@
 
 // A bounding ball of points: if two bounding balls are disjoint, so are their contents.
 
+#include <abut/math/aabb.hpp>
 #include <abut/math/dvec.hpp>
 
 #include <span>
@@ -13,6 +14,13 @@ struct BoundingBall {
     DVec<D> center{0.0};
     double radius = 0;
 };
+
+/// The ball through the corners of a box; right to rounding.
+template <int D>
+BoundingBall<D> ball_around(const Aabb<D>& box) {
+    const DVec<D> low(box.min), high(box.max);
+    return {(low + high) * 0.5, 0.5 * length(high - low)};
+}
 
 /// Centred on the middle of the bounding box; right to rounding. There is at least one point.
 template <int D>

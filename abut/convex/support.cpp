@@ -86,15 +86,34 @@ CorePoint<D> local_support(const Convex<D>& convex, const DVec<D>& direction) {
     return {};
 }
 
-/// The half extents of the bounding box of a placed box core, to the same bits as the corner that core_support finds.
+/// The corners of the bounding box of the core with its inner ball.
 template <int D>
-DVec<D> reach_of_box(const Convex<D>& convex) {
-    DVec<D> reach(0.0);
-    for (int i = 0; i < D; ++i)
-        for (int j = 0; j < D; ++j)
-            reach[i] +=
-                std::abs(convex.place.column[static_cast<std::size_t>(j)][i]) * static_cast<double>(convex.own[0][j]);
-    return reach;
+void find_extent(const Convex<D>& convex, DVec<D>& low, DVec<D>& high) {
+    if (convex.inner_radius == 0 && convex.core == Core::box) {
+        // To the same bits as the corner that core_support finds.
+        DVec<D> reach(0.0);
+        for (int i = 0; i < D; ++i)
+            for (int j = 0; j < D; ++j)
+                reach[i] += std::abs(convex.place.column[static_cast<std::size_t>(j)][i]) *
+                            static_cast<double>(convex.own[0][j]);
+        low = convex.place.offset - reach;
+        high = convex.place.offset + reach;
+    } else if (convex.inner_radius == 0 && convex.core == Core::points && convex.points == nullptr) {
+        // For so few points, placing all of them is cheaper than support queries.
+        low = high = convex.place.point(DVec<D>(convex.own[0]));
+        for (std::uint32_t i = 1; i < convex.count; ++i) {
+            const DVec<D> corner = convex.place.point(DVec<D>(convex.own[i]));
+            for (int j = 0; j < D; ++j) {
+                low[j] = std::min(low[j], corner[j]);
+                high[j] = std::max(high[j], corner[j]);
+            }
+        }
+    } else {
+        for (int i = 0; i < D; ++i) {
+            low[i] = core_support(convex, axis<D>(i, -1)).position[i];
+            high[i] = core_support(convex, axis<D>(i, 1)).position[i];
+        }
+    }
 }
 
 }  // namespace
@@ -173,34 +192,12 @@ DVec<D> support(const Convex<D>& convex, const DVec<D>& direction) {
 
 template <int D>
 Aabb<D> bounds(const Convex<D>& convex) {
+    DVec<D> low, high;
+    find_extent(convex, low, high);
     Aabb<D> result;
-    if (convex.core == Core::points && convex.points == nullptr && convex.inner_radius == 0) {
-        // For so few points, placing all of them is cheaper than support queries.
-        DVec<D> low = convex.place.point(DVec<D>(convex.own[0])), high = low;
-        for (std::uint32_t i = 1; i < convex.count; ++i) {
-            const DVec<D> corner = convex.place.point(DVec<D>(convex.own[i]));
-            for (int j = 0; j < D; ++j) {
-                low[j] = std::min(low[j], corner[j]);
-                high[j] = std::max(high[j], corner[j]);
-            }
-        }
-        for (int i = 0; i < D; ++i) {
-            result.min[i] = float_at_most(low[i] - convex.radius);
-            result.max[i] = float_at_least(high[i] + convex.radius);
-        }
-        return result;
-    }
-    if (convex.core == Core::box && convex.inner_radius == 0) {
-        const DVec<D> reach = reach_of_box(convex);
-        for (int i = 0; i < D; ++i) {
-            result.min[i] = float_at_most(convex.place.offset[i] - reach[i] - convex.radius);
-            result.max[i] = float_at_least(convex.place.offset[i] + reach[i] + convex.radius);
-        }
-        return result;
-    }
     for (int i = 0; i < D; ++i) {
-        result.min[i] = float_at_most(core_support(convex, axis<D>(i, -1)).position[i] - convex.radius);
-        result.max[i] = float_at_least(core_support(convex, axis<D>(i, 1)).position[i] + convex.radius);
+        result.min[i] = float_at_most(low[i] - convex.radius);
+        result.max[i] = float_at_least(high[i] + convex.radius);
     }
     return result;
 }
@@ -212,28 +209,9 @@ DVec<D> reference_point(const Convex<D>& convex) {
 
 template <int D>
 double size(const Convex<D>& convex) {
-    DVec<D> half;
-    if (convex.core == Core::box && convex.inner_radius == 0) {
-        const DVec<D> reach = reach_of_box(convex);
-        for (int i = 0; i < D; ++i)
-            half[i] = 0.5 * ((reach[i] + convex.place.offset[i]) - (convex.place.offset[i] - reach[i]));
-        return length(half) + convex.radius;
-    }
-    if (convex.core == Core::points && convex.count <= 3 && convex.inner_radius == 0) {
-        DVec<D> low = convex.place.point(DVec<D>(convex.vertices()[0])), high = low;
-        for (std::uint32_t k = 1; k < convex.count; ++k) {
-            const DVec<D> point = convex.place.point(DVec<D>(convex.vertices()[k]));
-            for (int i = 0; i < D; ++i) {
-                low[i] = std::min(low[i], point[i]);
-                high[i] = std::max(high[i], point[i]);
-            }
-        }
-        return length((high - low) * 0.5) + convex.radius;
-    }
-    for (int i = 0; i < D; ++i)
-        half[i] =
-            0.5 * (core_support(convex, axis<D>(i, 1)).position[i] - core_support(convex, axis<D>(i, -1)).position[i]);
-    return length(half) + convex.radius;
+    DVec<D> low, high;
+    find_extent(convex, low, high);
+    return length((high - low) * 0.5) + convex.radius;
 }
 
 #define ABUT_INSTANTIATE(D)                                                \

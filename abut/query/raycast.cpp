@@ -141,17 +141,12 @@ std::optional<Hit<D>> raycast(const Ray<D>& ray, const SolidBsp<D>& level, const
     if (!detail::is_valid_query(ray)) return std::nullopt;
     // A ray that ends on a face hits it although its length is rounded.
     constexpr double more = 1 + 1e-7;
-    const bool rests = ray.direction == Vec<D>(0.0f);
-    const double length = rests ? 0 : static_cast<double>(ray.length);
-    const DVec<D> direction = unit(DVec<D>(ray.direction));
+    const DRay<D> beam = to_dray(ray);
     SolidEntry<D> entry;
-    if (!level.enter(ray.origin, direction, length * more, entry)) return std::nullopt;
-    const double along = std::min(entry.along, length);
+    if (!level.enter(ray.origin, beam.rests() ? axis<D>(0) : beam.direction, beam.length * more, entry))
+        return std::nullopt;
     Hit<D> hit;
-    hit.distance = static_cast<float>(along);
-    hit.fraction = length > 0 && std::isfinite(length) ? std::min(1.0f, static_cast<float>(along / length)) : 0.0f;
-    hit.point = to_float(DVec<D>(ray.origin) + direction * along);
-    hit.normal = to_float(unit(entry.normal));
+    write_hit(beam, std::min(entry.along, beam.length), entry.normal, hit);
     hit.started_inside = entry.started_inside;
     if (entry.has_face) {
         hit.feature.part = entry.face;

@@ -134,15 +134,6 @@ RigidPath<3> rest_of(const RigidPath<3>& path, double time) {
     return {place_at(path, time), path.move * (1 - time), path.angular_velocity * (1 - time)};
 }
 
-/// The largest distance of a point of a shape from the origin of its path.
-double reach_of(const View<3>& shape) {
-    const Aabb3 box = bounds(shape);
-    DVec<3> farthest;
-    for (int i = 0; i < 3; ++i)
-        farthest[i] = std::max(std::abs(static_cast<double>(box.min[i])), std::abs(static_cast<double>(box.max[i])));
-    return length(farthest);
-}
-
 std::optional<Hit<3>> sweep_solid(const View<3>& a, const RigidPath<3>& path_a, const View<3>& b,
                                   const RigidPath<3>& path_b, const QueryOptions<3>& options) {
     const auto closest_at = [&](double time) {
@@ -156,7 +147,7 @@ std::optional<Hit<3>> sweep_solid(const View<3>& a, const RigidPath<3>& path_a, 
         return time == 0 ? sweep_part_paths(a, path_a, b, path_b, options)
                          : sweep_part_paths(a, rest_of(path_a, time), b, rest_of(path_b, time), options);
     };
-    const double max_speed = relative_motion_bounds(path_a, path_b, reach_of(a)).speed;
+    const double max_speed = relative_motion_bounds(path_a, path_b, reach_of(bounds(a))).speed;
     return detail::sweep_solid(moved(a, path_a.start), moved(b, path_b.start), max_speed,
                                length(path_a.move - path_b.move), closest_at, closing, surface_hit);
 }

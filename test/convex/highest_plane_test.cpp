@@ -31,8 +31,8 @@ TEST_P(HighestPlane, IsTheFirstOfThem) {
                 for (int i = 0; i < 3; ++i) result[i] = std::floor(result[i]);
             return result;
         };
-        std::vector<OrientedPlane> planes(1 + random.below(12));
-        for (OrientedPlane& plane : planes) {
+        std::vector<Plane<3>> planes(1 + random.below(12));
+        for (Plane<3>& plane : planes) {
             plane.normal = lattice ? place() : random.direction<3>();
             plane.offset = dot(plane.normal, place());
         }

@@ -52,7 +52,7 @@ void cap_loop(std::span<const std::uint32_t> loop, std::vector<glm::uvec3>& cap)
 /// Follows open edges to loops and caps them. At every point as many open edges begin as end, so every path returns. A
 /// loop is closed when the path reaches one of its points again.
 std::vector<glm::uvec3> cap_of(const std::vector<OpenEdge>& open_edges, std::size_t points) {
-    constexpr std::uint32_t none = no_half_edge;
+    constexpr std::uint32_t none = no_index;
     std::vector<glm::uvec3> result;
     std::vector<std::uint32_t> next(points, none), index_on_path(points, none), path;
     for (std::size_t i = open_edges.size(); i-- > 0;) next[open_edges[i].from] = static_cast<std::uint32_t>(i);

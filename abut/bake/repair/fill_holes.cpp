@@ -110,17 +110,17 @@ double area_of(const Welded& surface, std::span<const glm::uvec3> triangles) {
     return area;
 }
 
-/// The next open side around the hole, found by walking through the triangles at the common corner. `no_half_edge` if a
+/// The next open side around the hole, found by walking through the triangles at the common corner. `no_index` if a
 /// non-manifold or inconsistently oriented edge is in between.
 std::uint32_t next_open(std::span<const glm::uvec3> triangles, std::span<const std::uint32_t> twin,
                         const std::vector<bool>& is_open, std::uint32_t side) {
     for (std::size_t steps = 0; steps < triangles.size(); ++steps) {
         side = next_side(next_side(side));
         if (is_open[side]) return side;
-        if (twin[side] == no_half_edge) return no_half_edge;
+        if (twin[side] == no_index) return no_index;
         side = twin[side];
     }
-    return no_half_edge;
+    return no_index;
 }
 
 std::vector<Loop> loops_of(const Welded& surface, const Patches& patches, std::span<const HalfEdge> sorted) {
@@ -138,7 +138,7 @@ std::vector<Loop> loops_of(const Welded& surface, const Patches& patches, std::s
             is_used[side] = true;
             loop.corners.push_back(end_of(surface.triangles, side));
             side = next_open(surface.triangles, twin, is_open, side);
-        } while (side != no_half_edge && !is_used[side]);
+        } while (side != no_index && !is_used[side]);
         if (side == first) result.push_back(std::move(loop));
     }
     return result;

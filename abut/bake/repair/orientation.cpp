@@ -12,7 +12,7 @@
 namespace abut::detail {
 namespace {
 
-constexpr std::uint32_t none = no_half_edge;
+constexpr std::uint32_t none = no_index;
 
 void flip(glm::uvec3& triangle) {
     std::swap(triangle.y, triangle.z);

@@ -19,30 +19,23 @@ auto leaves_of(const BvhTree<D>& tree) {
     return [&tree](std::uint32_t ref) -> const BvhLeaf<D>& { return tree.leaf(ref); };
 }
 
-void overlapping_2(const BvhTree<2>& tree, const Aabb<2>& box, ItemCall visit) {
-    visit_overlapping<2>(tree, leaves_of(tree), box, visit);
-}
-void overlapping_3(const BvhTree<3>& tree, const Aabb<3>& box, ItemCall visit) {
-    visit_overlapping<3>(tree, leaves_of(tree), box, visit);
-}
-void along_ray_2(const BvhTree<2>& tree, const Ray<2>& ray, ReachCall visit) {
-    visit_along_ray<2>(tree, leaves_of(tree), ray, visit);
-}
-void along_2(const BvhTree<2>& tree, const RayReach<2>& reach, ReachCall visit) {
-    visit_along<2>(tree, leaves_of(tree), reach, visit);
-}
-void along_ray_3(const BvhTree<3>& tree, const Ray<3>& ray, ReachCall visit) {
-    visit_along_ray<3>(tree, leaves_of(tree), ray, visit);
-}
-void along_3(const BvhTree<3>& tree, const RayReach<3>& reach, ReachCall visit) {
-    visit_along<3>(tree, leaves_of(tree), reach, visit);
-}
-void near_2(const BvhTree<2>& tree, const BoxReach<2>& reach, ReachCall visit) {
-    visit_near<2>(tree, leaves_of(tree), reach, visit);
-}
-void near_3(const BvhTree<3>& tree, const BoxReach<3>& reach, ReachCall visit) {
-    visit_near<3>(tree, leaves_of(tree), reach, visit);
-}
+// Functions without templates, as HWY_EXPORT needs.
+#define ABUT_FOR_DIMENSION(D)                                                           \
+    void overlapping_##D(const BvhTree<D>& tree, const Aabb<D>& box, ItemCall visit) {  \
+        visit_overlapping<D>(tree, leaves_of(tree), box, visit);                        \
+    }                                                                                   \
+    void along_ray_##D(const BvhTree<D>& tree, const Ray<D>& ray, ReachCall visit) {    \
+        visit_along_ray<D>(tree, leaves_of(tree), ray, visit);                          \
+    }                                                                                   \
+    void along_##D(const BvhTree<D>& tree, const RayReach<D>& reach, ReachCall visit) { \
+        visit_along<D>(tree, leaves_of(tree), reach, visit);                            \
+    }                                                                                   \
+    void near_##D(const BvhTree<D>& tree, const BoxReach<D>& reach, ReachCall visit) {  \
+        visit_near<D>(tree, leaves_of(tree), reach, visit);                             \
+    }
+ABUT_FOR_DIMENSION(2)
+ABUT_FOR_DIMENSION(3)
+#undef ABUT_FOR_DIMENSION
 
 }  // namespace abut::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -50,39 +43,26 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace abut::detail {
 
-HWY_EXPORT(overlapping_2);
-HWY_EXPORT(overlapping_3);
-HWY_EXPORT(along_ray_2);
-HWY_EXPORT(along_2);
-HWY_EXPORT(along_ray_3);
-HWY_EXPORT(along_3);
-HWY_EXPORT(near_2);
-HWY_EXPORT(near_3);
-
-void find_overlapping(const BvhTree<2>& tree, const Aabb<2>& box, ItemCall visit) {
-    HWY_DYNAMIC_DISPATCH(overlapping_2)(tree, box, visit);
-}
-void find_overlapping(const BvhTree<3>& tree, const Aabb<3>& box, ItemCall visit) {
-    HWY_DYNAMIC_DISPATCH(overlapping_3)(tree, box, visit);
-}
-void find_within(const BvhTree<2>& tree, const Ray<2>& ray, ReachCall visit) {
-    HWY_DYNAMIC_DISPATCH(along_ray_2)(tree, ray, visit);
-}
-void find_within(const BvhTree<2>& tree, const RayReach<2>& reach, ReachCall visit) {
-    HWY_DYNAMIC_DISPATCH(along_2)(tree, reach, visit);
-}
-void find_within(const BvhTree<3>& tree, const Ray<3>& ray, ReachCall visit) {
-    HWY_DYNAMIC_DISPATCH(along_ray_3)(tree, ray, visit);
-}
-void find_within(const BvhTree<3>& tree, const RayReach<3>& reach, ReachCall visit) {
-    HWY_DYNAMIC_DISPATCH(along_3)(tree, reach, visit);
-}
-void find_within(const BvhTree<2>& tree, const BoxReach<2>& reach, ReachCall visit) {
-    HWY_DYNAMIC_DISPATCH(near_2)(tree, reach, visit);
-}
-void find_within(const BvhTree<3>& tree, const BoxReach<3>& reach, ReachCall visit) {
-    HWY_DYNAMIC_DISPATCH(near_3)(tree, reach, visit);
-}
+#define ABUT_FOR_DIMENSION(D)                                                             \
+    HWY_EXPORT(overlapping_##D);                                                          \
+    HWY_EXPORT(along_ray_##D);                                                            \
+    HWY_EXPORT(along_##D);                                                                \
+    HWY_EXPORT(near_##D);                                                                 \
+    void find_overlapping(const BvhTree<D>& tree, const Aabb<D>& box, ItemCall visit) {   \
+        HWY_DYNAMIC_DISPATCH(overlapping_##D)(tree, box, visit);                          \
+    }                                                                                     \
+    void find_within(const BvhTree<D>& tree, const Ray<D>& ray, ReachCall visit) {        \
+        HWY_DYNAMIC_DISPATCH(along_ray_##D)(tree, ray, visit);                            \
+    }                                                                                     \
+    void find_within(const BvhTree<D>& tree, const RayReach<D>& reach, ReachCall visit) { \
+        HWY_DYNAMIC_DISPATCH(along_##D)(tree, reach, visit);                              \
+    }                                                                                     \
+    void find_within(const BvhTree<D>& tree, const BoxReach<D>& reach, ReachCall visit) { \
+        HWY_DYNAMIC_DISPATCH(near_##D)(tree, reach, visit);                               \
+    }
+ABUT_FOR_DIMENSION(2)
+ABUT_FOR_DIMENSION(3)
+#undef ABUT_FOR_DIMENSION
 
 }  // namespace abut::detail
 #endif

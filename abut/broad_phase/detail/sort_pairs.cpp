@@ -1,5 +1,5 @@
-#include <abut/broad_phase/detail/radix_sort.hpp>
 #include <abut/broad_phase/detail/sort_pairs.hpp>
+#include <abut/math/detail/radix_sort.hpp>
 
 #include <algorithm>
 #include <bit>

@@ -5,10 +5,10 @@
 #include <abut/broad_phase/detail/box_overlaps.hpp>
 #include <abut/broad_phase/detail/pair_buffer.hpp>
 #include <abut/broad_phase/detail/parallel.hpp>
-#include <abut/broad_phase/detail/radix_sort.hpp>
 #include <abut/broad_phase/reach.hpp>
 #include <abut/broad_phase/sweep_and_prune.hpp>
 #include <abut/math/assert.hpp>
+#include <abut/math/detail/radix_sort.hpp>
 #include <abut/math/simd/library_entry.hpp>
 
 #include <algorithm>

@@ -29,8 +29,7 @@ Simplex<D> first_simplex(const CoreDifference<D>& difference, const Cache* cache
             point.position = point.on_a - point.on_b;
             if (!contains(simplex, point.position)) simplex.points[simplex.count++] = point;
         }
-        DVec<D> axis;
-        for (int i = 0; i < D; ++i) axis[i] = static_cast<double>(cache->axis[static_cast<std::size_t>(i)]);
+        const DVec<D> axis = axis_of<D>(*cache);
         if (largest(axis) > 0) direction = axis;
     }
     if (simplex.count == 0) simplex.points[simplex.count++] = difference.support(normalized(direction));
@@ -45,7 +44,7 @@ void store(const GjkResult<D>& result, Cache* cache) {
         cache->corner_a[i] = result.simplex.points[i].index_a;
         cache->corner_b[i] = result.simplex.points[i].index_b;
     }
-    for (int i = 0; i < D; ++i) cache->axis[static_cast<std::size_t>(i)] = static_cast<float>(result.axis[i]);
+    set_axis(result.axis, *cache);
 }
 
 template <int D>

@@ -11,6 +11,30 @@
 // After Highway's headers, because it is included once for each target.
 #include <abut/convex/farthest_simd-inl.h>
 
+#ifndef ABUT_CONVEX_GJK_FAST
+#define ABUT_CONVEX_GJK_FAST
+namespace abut::detail {
+
+enum class GjkFastExit : std::uint8_t {
+    separated,    ///< `toward` separates the cores by more than `max_distance`, by far more than rounding
+    overlapping,  ///< the origin is inside the simplex, by far more than rounding
+    converged,    ///< no point of A - B is nearer to the origin
+    undecided,    ///< the distance is too small to decide
+};
+
+struct GjkFastResult {
+    /// From A to B. On entry the first search direction if there are no vertices, zero if unknown; on exit as long as
+    /// the distance.
+    DVec<3> toward{0.0};
+    // The closest points, if the exit is `converged`. They are right if the two bounds agree.
+    double upper_bound = 0;   ///< the distance between a point of A and a point of B
+    double lower_bound = -1;  ///< the width of a slab between the cores
+    DVec<3> on_a{0.0};
+};
+
+}  // namespace abut::detail
+#endif
+
 HWY_BEFORE_NAMESPACE();
 namespace abut::detail::HWY_NAMESPACE {
 
@@ -66,22 +90,23 @@ public:
         scale_ = a_.reach() + b.scale / a.scale * b_.reach() * 2 + largest(b_to_a_.offset);
     }
 
-    GjkFastExit run(GjkFastSimplex& simplex, Trace<3>* trace) {
+    /// Begins with the vertices of the cache, which receives those of the last simplex.
+    GjkFastExit run(Cache& simplex, DVec<3>& toward, Trace<3>* trace) {
         for (std::uint32_t i = 0; i < simplex.count; ++i)
             corners_[count_++] = corner(simplex.corner_a[i], simplex.corner_b[i]);
-        const GjkFastExit exit = begin(simplex.toward) ? iterate(trace) : GjkFastExit::overlapping;
+        const GjkFastExit exit = begin(toward) ? iterate(trace) : GjkFastExit::overlapping;
         for (std::uint32_t i = 0; i < count_; ++i) {
             simplex.corner_a[i] = corners_[i].a;
             simplex.corner_b[i] = corners_[i].b;
         }
         simplex.count = count_;
-        simplex.toward = core_a_.place.vector(-closest_);
+        toward = core_a_.place.vector(-closest_);
         return exit;
     }
 
     /// The closest points of the last simplex. Returns false within the rounding error and for slivers with unreliable
     /// weights. A point off the simplex may be as near to the origin as a plane of it, and nearer than all of A - B.
-    HWY_INLINE bool closest_points(GjkFastDistance& result) const {
+    HWY_INLINE bool closest_points(GjkFastResult& result) const {
         const std::array<double, 3> weights = weights_of_closest();
         DVec<3> sum(0.0), on_a(0.0);
         for (std::uint32_t i = 0; i < count_; ++i) {
@@ -296,16 +321,14 @@ private:
     std::uint32_t count_ = 0;
 };
 
-GjkFastExit decide(const Convex<3>& a, const Convex<3>& b, double max_distance, GjkFastSimplex& simplex,
+/// Iterates until no point of A - B is nearer to the origin, or, with a finite `max_distance`, until it is certain
+/// whether the distance is above that.
+GjkFastExit search(const Convex<3>& a, const Convex<3>& b, double max_distance, Cache& simplex, GjkFastResult& result,
                    Trace<3>* trace) {
-    return GjkFast(a, b, max_distance).run(simplex, trace);
-}
-
-GjkFastExit find_distance(const Convex<3>& a, const Convex<3>& b, GjkFastSimplex& simplex, GjkFastDistance& result,
-                          Trace<3>* trace) {
-    GjkFast solver(a, b, std::numeric_limits<double>::infinity());
-    const GjkFastExit exit = solver.run(simplex, trace);
-    return exit == GjkFastExit::converged && !solver.closest_points(result) ? GjkFastExit::undecided : exit;
+    GjkFast solver(a, b, max_distance);
+    const GjkFastExit exit = solver.run(simplex, result.toward, trace);
+    const bool measures = exit == GjkFastExit::converged && max_distance == std::numeric_limits<double>::infinity();
+    return measures && !solver.closest_points(result) ? GjkFastExit::undecided : exit;
 }
 
 }  // namespace abut::detail::HWY_NAMESPACE
@@ -324,24 +347,64 @@ bool fits_simd(const Convex<3>& core) {
     return true;
 }
 
-}  // namespace
-
-HWY_EXPORT(decide);
-HWY_EXPORT(find_distance);
-
-bool gjk_fast_applies(const Convex<3>& a, const Convex<3>& b) {
+/// Whether both have vertices and a similarity placement, and they are not both boxes.
+bool applies(const Convex<3>& a, const Convex<3>& b) {
     if (a.core == Core::box && b.core == Core::box) return false;
     return has_similarity_placement(a) && has_similarity_placement(b) && fits_simd(a) && fits_simd(b);
 }
 
-GjkFastExit gjk_fast_distance(const Convex<3>& a, const Convex<3>& b, GjkFastSimplex& simplex, GjkFastDistance& result,
-                              Trace<3>* trace) {
-    return HWY_DYNAMIC_DISPATCH(find_distance)(a, b, simplex, result, trace);
+/// The vertices of a cache up to the first invalid index.
+Cache valid_vertices(const Convex<3>& a, const Convex<3>& b, const Cache& cache) {
+    Cache result = cache;
+    result.axis = {};
+    result.count = 0;
+    const std::uint32_t count = std::min(cache.count, 4u);
+    while (result.count < count && has_corner(a, cache.corner_a[result.count]) &&
+           has_corner(b, cache.corner_b[result.count]))
+        ++result.count;
+    return result;
 }
 
-GjkFastExit gjk_fast_overlap(const Convex<3>& a, const Convex<3>& b, double max_distance, GjkFastSimplex& simplex,
-                             Trace<3>* trace) {
-    return HWY_DYNAMIC_DISPATCH(decide)(a, b, max_distance, simplex, trace);
+}  // namespace
+
+HWY_EXPORT(search);
+
+bool fast_distance(const Convex<3>& a, const Convex<3>& b, const SearchOptions<3>& options, SignedDistance<3>& result,
+                   Cache& inside) {
+    if (!applies(a, b)) return false;
+    Cache simplex;
+    if (options.cache != nullptr) simplex = valid_vertices(a, b, *options.cache);
+    GjkFastResult gap;
+    const GjkFastExit exit =
+        HWY_DYNAMIC_DISPATCH(search)(a, b, std::numeric_limits<double>::infinity(), simplex, gap, options.trace);
+    if (exit == GjkFastExit::overlapping) inside = simplex;
+    if (exit != GjkFastExit::converged || !(gap.upper_bound - gap.lower_bound <= 1e-9 * gap.upper_bound)) return false;
+    result.distance = gap.upper_bound - a.radius - b.radius;
+    result.normal = gap.toward / length(gap.toward);
+    result.on_a = gap.on_a + result.normal * a.radius;
+    result.corners = {simplex.corner_a, simplex.corner_b, simplex.count};
+    if (options.cache != nullptr) {
+        set_axis(result.normal, simplex);
+        *options.cache = simplex;
+    }
+    return true;
+}
+
+std::optional<bool> fast_overlap(const Convex<3>& a, const Convex<3>& b, const SearchOptions<3>& options) {
+    if (!applies(a, b)) return std::nullopt;
+    Cache simplex;
+    GjkFastResult found;
+    if (options.cache != nullptr) {
+        if (options.cache->count == 4) simplex = valid_vertices(a, b, *options.cache);
+        found.toward = axis_of<3>(*options.cache);
+    }
+    const GjkFastExit exit = HWY_DYNAMIC_DISPATCH(search)(a, b, a.radius + b.radius, simplex, found, options.trace);
+    if (exit != GjkFastExit::separated && exit != GjkFastExit::overlapping) return std::nullopt;
+    if (options.cache != nullptr) {
+        if (exit == GjkFastExit::separated) set_axis(normalized(found.toward), simplex);
+        *options.cache = simplex;
+    }
+    return exit == GjkFastExit::overlapping;
 }
 
 }  // namespace abut::detail

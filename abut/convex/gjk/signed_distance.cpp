@@ -1,8 +1,6 @@
-#include <abut/convex/features.hpp>
 #include <abut/convex/gjk/epa.hpp>
-#include <abut/convex/gjk/fast_distance.hpp>
 #include <abut/convex/gjk/gjk.hpp>
-#include <abut/convex/gjk/sat.hpp>
+#include <abut/convex/gjk/gjk_fast.hpp>
 #include <abut/convex/gjk/signed_distance.hpp>
 
 namespace abut::detail {
@@ -15,19 +13,6 @@ struct CoreDistance {
     DVec<D> normal;
     Simplex<D> face;
 };
-
-/// Whether the axes of a core are reliable: a box has its axes at any thickness, a polygon has an area unless its
-/// placement flattens it.
-bool has_stable_axes(const Convex<2>& core) {
-    if (!has_similarity_placement(core)) return false;
-    return core.core == Core::box || (core.core == Core::points && core.points != nullptr && core.count > 2);
-}
-
-/// Whether SAT is complete and cheap. The candidate axes are complete if at least one of the two has an area.
-bool few_axes(const CoreDifference<2>& difference) {
-    const Convex<2>&a = difference.a(), &b = difference.b();
-    return has_features(a) && has_features(b) && a.count + b.count <= 16 && (has_stable_axes(a) || has_stable_axes(b));
-}
 
 /// The simplex at which A and B touch after B has moved by `depth` along the normal.
 template <int D>
@@ -73,20 +58,7 @@ CoreDistance<D> penetration_depth(const CoreDifference<D>& difference, const Gjk
 }
 
 template <int D>
-CoreDistance<D> core_distance(const CoreDifference<D>& difference, SearchOptions<D> options) {
-    Cache start;
-    if constexpr (D == 2) {
-        if (few_axes(difference)) {
-            const SeparatingAxis axis = separating_axis(difference, 0, options.trace);
-            // No axis was tested if all edges vanish in the rounding of distant corners.
-            const bool tested = axis.normal != DVec<D>(0.0);
-            if (tested && axis.extent >= 0)
-                return {-axis.extent, axis.normal, simplex_at_contact(difference, axis.normal, axis.extent)};
-            // A separating axis is a good first direction for GJK.
-            for (int i = 0; i < D; ++i) start.axis[static_cast<std::size_t>(i)] = static_cast<float>(axis.normal[i]);
-            if (options.cache == nullptr) options.cache = &start;
-        }
-    }
+CoreDistance<D> core_distance(const CoreDifference<D>& difference, const SearchOptions<D>& options) {
     const GjkResult<D> gjk_result = gjk(difference, std::numeric_limits<double>::infinity(), options);
     return gjk_result.converged() ? CoreDistance<D>{gjk_result.upper_bound, gjk_result.axis, gjk_result.simplex}
                                   : penetration_depth(difference, gjk_result, options);
@@ -120,13 +92,6 @@ bool convex_overlap(const Convex<D>& a, const Convex<D>& b, const SearchOptions<
     const double max_distance = a.radius + b.radius;
     if (const auto fast = fast_overlap(a, b, options)) return *fast;
     const CoreDifference<D> difference(a, b);
-    if constexpr (D == 2) {
-        if (few_axes(difference)) {
-            const SeparatingAxis axis = separating_axis(difference, max_distance, options.trace);
-            if (-axis.extent > max_distance) return false;
-            if (max_distance == 0 && axis.normal != DVec<D>(0.0)) return true;
-        }
-    }
     const GjkResult<D> gjk_result = gjk(difference, max_distance, options);
     if (gjk_result.lower_bound > max_distance) return false;
     if (gjk_result.upper_bound <= max_distance + gjk_result.tolerance) return true;

@@ -1,8 +1,7 @@
 #pragma once
 
-// The signed distance of two convex sets, in double. GJK finds the gap between the cores, EPA, or SAT in the
-// plane, their penetration depth; the radii are subtracted at the end. An answer whose two bounds differ is computed
-// again by the next method.
+// The signed distance of two convex sets, in double. GJK finds the gap between the cores, EPA their penetration depth;
+// the radii are subtracted at the end. An answer whose two bounds differ is computed again by the next method.
 
 #include <abut/convex/gjk/search_options.hpp>
 #include <abut/convex/gjk/simplex.hpp>

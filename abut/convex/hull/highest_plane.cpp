@@ -15,13 +15,13 @@ namespace abut::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-void find_highest_planes(std::span<const OrientedPlane> planes, const PointColumns& points, double* heights,
+void find_highest_planes(std::span<const Plane<3>> planes, const PointColumns& points, double* heights,
                          double* numbers) {
     const hn::CappedTag<double, highest_plane_padding> d;
     for (std::size_t i = 0; i < points.count; i += hn::Lanes(d)) {
         const auto x = hn::LoadU(d, points.x + i), y = hn::LoadU(d, points.y + i), z = hn::LoadU(d, points.z + i);
         auto maximum = hn::Set(d, -std::numeric_limits<double>::infinity()), best = hn::Zero(d), number = hn::Zero(d);
-        for (const OrientedPlane& plane : planes) {
+        for (const Plane<3>& plane : planes) {
             const auto xy = hn::Add(hn::Mul(x, hn::Set(d, plane.normal.x)), hn::Mul(y, hn::Set(d, plane.normal.y)));
             const auto along = hn::Add(xy, hn::Mul(z, hn::Set(d, plane.normal.z)));
             const auto height = hn::Sub(along, hn::Set(d, plane.offset));
@@ -43,8 +43,7 @@ namespace abut::detail {
 
 HWY_EXPORT(find_highest_planes);
 
-void highest_planes(std::span<const OrientedPlane> planes, const PointColumns& points, double* heights,
-                    double* numbers) {
+void highest_planes(std::span<const Plane<3>> planes, const PointColumns& points, double* heights, double* numbers) {
     HWY_DYNAMIC_DISPATCH(find_highest_planes)(planes, points, heights, numbers);
 }
 

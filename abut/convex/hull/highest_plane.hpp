@@ -9,9 +9,10 @@
 
 namespace abut::detail {
 
-/// Points above it: dot(normal, p) > offset.
-struct OrientedPlane {
-    DVec<3> normal;
+/// A line in 2D, a plane in 3D: dot(normal, p) == offset, with larger values above it.
+template <int D>
+struct Plane {
+    DVec<D> normal;
     double offset = 0;
 };
 
@@ -25,7 +26,6 @@ struct PointColumns {
 
 /// One per point: the maximum of dot(normal, p) - offset over all planes, and the index of its plane, the first of
 /// several. There is at least one plane. The result has the same bits on every SIMD target.
-void highest_planes(std::span<const OrientedPlane> planes, const PointColumns& points, double* heights,
-                    double* numbers);
+void highest_planes(std::span<const Plane<3>> planes, const PointColumns& points, double* heights, double* numbers);
 
 }  // namespace abut::detail

@@ -1,5 +1,6 @@
 #include <abut/convex/hull/hull_columns.hpp>
 #include <abut/convex/hull/hull_input.hpp>
+#include <abut/math/detail/radix_sort.hpp>
 #include <abut/math/dvec.hpp>
 #include <abut/math/predicates.hpp>
 
@@ -107,29 +108,16 @@ std::uint32_t key_of(float value) {
     return (bits & 0x80000000u) != 0 ? ~bits : bits | 0x80000000u;
 }
 
-/// Stable radix sort by key.
+/// A stable sort by key.
 void sort(std::vector<Candidate>& candidates) {
+    const auto key = [](const Candidate& candidate) { return candidate.key; };
     if (candidates.size() < worth_counting) {
-        std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
-            return a.key != b.key ? a.key < b.key : a.point.number < b.point.number;
-        });
+        std::stable_sort(candidates.begin(), candidates.end(),
+                         [](const Candidate& a, const Candidate& b) { return a.key < b.key; });
         return;
     }
-    constexpr unsigned digit_bits = 11, digits = 3;
-    constexpr std::uint32_t mask = (1u << digit_bits) - 1;
-    std::array<std::vector<std::uint32_t>, digits> starts;
-    for (auto& start : starts) start.assign(mask + 2, 0);
-    for (const Candidate& candidate : candidates)
-        for (unsigned digit = 0; digit < digits; ++digit)
-            ++starts[digit][(candidate.key >> digit * digit_bits & mask) + 1];
     std::vector<Candidate> other(candidates.size());
-    for (unsigned digit = 0; digit < digits; ++digit) {
-        std::vector<std::uint32_t>& start = starts[digit];
-        for (std::size_t i = 1; i < start.size(); ++i) start[i] += start[i - 1];
-        for (const Candidate& candidate : candidates)
-            other[start[candidate.key >> digit * digit_bits & mask]++] = candidate;
-        candidates.swap(other);
-    }
+    if (radix_sort(candidates.data(), other.data(), candidates.size(), 32, key) == other.data()) candidates.swap(other);
 }
 
 std::vector<Candidate> candidates_of(std::span<const Vec2> points) {

@@ -57,7 +57,7 @@ private:
     };
     /// Fills a cache line.
     struct alignas(64) Facet {
-        OrientedPlane plane;                    ///< with a unit normal
+        Plane<3> plane;                         ///< with a unit normal
         std::array<std::uint32_t, 3> corner{};  ///< half-edge i runs from corner i to corner i + 1
         std::array<std::uint32_t, 3> twin{};
         std::uint32_t outside = no_index;   ///< the head of the linked list of points above it
@@ -75,7 +75,7 @@ private:
     GridPoint normal_of(const Facet& facet) const {
         return grid_normal(grid_place(facet.corner[0]), grid_place(facet.corner[1]), grid_place(facet.corner[2]));
     }
-    double rounded_height(const OrientedPlane& plane, std::uint32_t point) const {
+    double rounded_height(const Plane<3>& plane, std::uint32_t point) const {
         return dot(plane.normal, position(point)) - plane.offset;
     }
     double exact_height(const Facet& facet, std::uint32_t point) const;
@@ -102,7 +102,7 @@ private:
     std::vector<std::uint32_t> visible_;  ///< the facets visible from the new point
     std::vector<std::uint32_t> horizon_;  ///< half-edges of the facets behind the horizon
     std::vector<std::uint32_t> cone_;     ///< the new facets
-    std::vector<OrientedPlane> cone_planes_;
+    std::vector<Plane<3>> cone_planes_;
     std::vector<double> cone_height_;                ///< of the farthest point above each
     std::vector<std::uint32_t> orphans_;             ///< points that were above removed facets
     std::vector<double> orphan_[3];                  ///< their coordinates,

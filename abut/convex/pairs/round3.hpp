@@ -40,14 +40,12 @@ inline double clamp_to_segment(double part) {
 }
 
 /// The closest parameters of nearly parallel segments, or points: an end of one and its projection onto the other.
-template <int D>
-SegmentParameters closest_end_parameters(const DVec<D>& u, const DVec<D>& v, const DVec<D>& w);
+SegmentParameters closest_end_parameters(const DVec<3>& u, const DVec<3>& v, const DVec<3>& w);
 
 /// The closest points of the segments from a along u and from b along v, w = a - b: the ends of the common
 /// perpendicular, or an end of one and its projection onto the other. Ericson, Real-Time Collision Detection (2005),
 /// 5.1.9.
-template <int D>
-inline SegmentParameters closest_parameters(const DVec<D>& u, const DVec<D>& v, const DVec<D>& w) {
+inline SegmentParameters closest_parameters(const DVec<3>& u, const DVec<3>& v, const DVec<3>& w) {
     // Below this square of the sine of their angle the segments count as parallel.
     constexpr double parallel = 1e-12;
     const double uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), uw = dot(u, w), vw = dot(v, w);
@@ -60,21 +58,9 @@ inline SegmentParameters closest_parameters(const DVec<D>& u, const DVec<D>& v, 
     return {clamp_to_segment((uv * on_b - uw) * one_u), on_b};
 }
 
-/// The closest points of two segments without their balls, relative to an end of A.
-template <int D>
-struct SegmentsClosest {
-    double gap;
-    DVec<D> normal, on_a;
-    SegmentParameters places;
-};
-/// A goes from there along u, B goes between the other two. Returns false if rounding decides.
-template <int D>
-bool closest_on_segments(const DVec<D>& u, const DVec<D>& from, const DVec<D>& to, SegmentsClosest<D>& closest);
-
 /// A point of a core in the world.
-template <int D>
-inline DVec<D> core_corner(const Convex<D>& convex, std::uint32_t i) {
-    return convex.place.point(DVec<D>(convex.vertices()[i]));
+inline DVec<3> core_corner(const Convex<3>& convex, std::uint32_t i) {
+    return convex.place.point(DVec<3>(convex.vertices()[i]));
 }
 
 /// Whether the core is a point, a segment or a box.

@@ -13,14 +13,10 @@ DVec<3> across_both(const DVec<3>& u, const DVec<3>& v) {
     const double square = length_squared(across);
     return square > min_round3_gap * length_squared(u) * length_squared(v) ? across / std::sqrt(square) : DVec<3>(0.0);
 }
-DVec<2> across_both(const DVec<2>&, const DVec<2>&) {
-    return DVec<2>(0.0);
-}
 
 }  // namespace
 
-template <int D>
-SegmentParameters closest_end_parameters(const DVec<D>& u, const DVec<D>& v, const DVec<D>& w) {
+SegmentParameters closest_end_parameters(const DVec<3>& u, const DVec<3>& v, const DVec<3>& w) {
     const double uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), uw = dot(u, w), vw = dot(v, w);
     const SegmentParameters all[] = {
         {0, part_of(vw, vv)}, {1, part_of(vw + uv, vv)}, {part_of(-uw, uu), 0}, {part_of(uv - uw, uu), 1}};
@@ -62,43 +58,31 @@ bool distance_of(const PlacedSegment& segment, const PlacedBall& ball, CoresDist
     return true;
 }
 
-template <int D>
-bool closest_on_segments(const DVec<D>& u, const DVec<D>& from, const DVec<D>& to, SegmentsClosest<D>& closest) {
-    const DVec<D> v = to - from;
-    closest.places = closest_parameters(u, v, -from);
-    closest.on_a = u * closest.places.on_a;
-    const DVec<D> between = from + v * closest.places.on_b - closest.on_a;
-    closest.gap = length(between);
-    const double scale = std::max({largest(u), largest(from), largest(to)});
-    DVec<D>& normal = closest.normal;
-    if (closest.gap > min_round3_gap * scale) {
-        normal = between * (1 / closest.gap);
+bool distance_of_any_segments(const PlacedSegment& a, const PlacedSegment& b, CoresDistance& found) {
+    // Relative to an end of A.
+    const DVec<3> u = lanes::vector(a.to - a.from), from = lanes::vector(b.from - a.from),
+                  to = lanes::vector(b.to - a.from), v = to - from;
+    const SegmentParameters places = closest_parameters(u, v, -from);
+    const DVec<3> on_a = u * places.on_a, between = from + v * places.on_b - on_a;
+    const double gap = length(between), scale = std::max({largest(u), largest(from), largest(to)});
+    DVec<3> normal;
+    if (gap > min_round3_gap * scale) {
+        normal = between * (1 / gap);
     } else {
         // The segments cross.
         normal = across_both(u, v);
-        if (normal == DVec<D>(0.0)) return false;
+        if (normal == DVec<3>(0.0)) return false;
         if (dot(normal, between) < 0) normal = -normal;
     }
     const double proven = std::min(dot(normal, from), dot(normal, to)) - std::max(0.0, dot(normal, u));
-    return closest.gap - proven <= round3_tolerance * scale;
-}
-
-bool distance_of_any_segments(const PlacedSegment& a, const PlacedSegment& b, CoresDistance& found) {
-    SegmentsClosest<3> closest;
-    if (!closest_on_segments(lanes::vector(a.to - a.from), lanes::vector(b.from - a.from), lanes::vector(b.to - a.from),
-                             closest))
-        return false;
-    found.distance = lanes::double2(closest.gap);
-    found.normal = lanes::double3(closest.normal);
-    found.on_a = a.from + lanes::double3(closest.on_a);
-    found.part_a = segment_feature(lanes::double2(closest.places.on_a));
-    found.part_b = segment_feature(lanes::double2(closest.places.on_b));
+    if (!(gap - proven <= round3_tolerance * scale)) return false;
+    found.distance = lanes::double2(gap);
+    found.normal = lanes::double3(normal);
+    found.on_a = a.from + lanes::double3(on_a);
+    found.part_a = segment_feature(lanes::double2(places.on_a));
+    found.part_b = segment_feature(lanes::double2(places.on_b));
     add_balls(a.radius, b.radius, found);
     return true;
 }
-
-template SegmentParameters closest_end_parameters(const DVec<2>&, const DVec<2>&, const DVec<2>&);
-template SegmentParameters closest_end_parameters(const DVec<3>&, const DVec<3>&, const DVec<3>&);
-template bool closest_on_segments(const DVec<2>&, const DVec<2>&, const DVec<2>&, SegmentsClosest<2>&);
 
 }  // namespace abut::detail

@@ -20,8 +20,8 @@ public:
     PortalHit<D> run() {
         PortalHit<D> hit;
         hit.answer = find();
-        if (hit.answer == PortalAnswer::enters && !(move_outwards(hit) && penetrates(hit)))
-            hit.answer = PortalAnswer::undecided;
+        if (hit.answer == RayAnswer::enters && !(move_outwards(hit) && penetrates(hit)))
+            hit.answer = RayAnswer::undecided;
         return hit;
     }
 
@@ -38,15 +38,15 @@ private:
     }
 
     /// Two points in 2D, right and left of the line.
-    PortalAnswer find() requires(D == 2) {
+    RayAnswer find() requires(D == 2) {
         const DVec<2> right(direction_.y, -direction_.x);
         for (std::size_t i = 0; i < 2; ++i) {
             const DVec<2> across = i == 0 ? right : -right;
             corners_[i] = support(across);
-            if (misses_along(across, corners_[i])) return PortalAnswer::misses;
-            if (!(dot(across, corners_[i].position) > tolerances_.depth)) return PortalAnswer::undecided;
+            if (misses_along(across, corners_[i])) return RayAnswer::misses;
+            if (!(dot(across, corners_[i].position) > tolerances_.depth)) return RayAnswer::undecided;
         }
-        return PortalAnswer::enters;
+        return RayAnswer::enters;
     }
     DVec<2> outwards() const requires(D == 2) {
         const DVec<2> edge = corners_[1].position - corners_[0].position;
@@ -57,7 +57,7 @@ private:
     }
 
     /// Three points in 3D around the line, counter-clockwise seen against the motion: GJK in the projection.
-    PortalAnswer find() requires(D == 3) {
+    RayAnswer find() requires(D == 3) {
         u_ = perpendicular(direction_);
         v_ = cross(direction_, u_);
         DVec<2> toward = -projected(reference_point(a_) - reference_point(b_));
@@ -66,8 +66,8 @@ private:
             toward = normalized(toward);
             const DVec<3> across = u_ * toward.x + v_ * toward.y;
             const DifferencePoint<3> newest = support(across);
-            if (misses_along(across, newest)) return PortalAnswer::misses;
-            if (!(dot(across, newest.position) > tolerances_.depth)) return PortalAnswer::undecided;
+            if (misses_along(across, newest)) return RayAnswer::misses;
+            if (!(dot(across, newest.position) > tolerances_.depth)) return RayAnswer::undecided;
             const DVec<2> here = projected(newest.position);
             if (count == 0) {
                 toward = -here;
@@ -89,11 +89,11 @@ private:
                 }
                 corners_[2] = newest;
                 if (turn < 0) std::swap(corners_[0], corners_[1]);
-                return PortalAnswer::enters;
+                return RayAnswer::enters;
             }
             corners_[count++] = newest;
         }
-        return PortalAnswer::undecided;
+        return RayAnswer::undecided;
     }
     DVec<2> projected(const DVec<3>& position) const requires(D == 3) { return {dot(u_, position), dot(v_, position)}; }
     /// Orthogonal to the line of two points, towards the origin.

@@ -14,14 +14,13 @@
 // .cpp files.
 
 #include <abut/convex/gjk/minkowski_difference.hpp>
+#include <abut/convex/ray/ray_entry.hpp>
 
 namespace abut::detail {
 
-enum class PortalAnswer : std::uint8_t { undecided, misses, enters };
-
 template <int D>
 struct PortalHit {
-    PortalAnswer answer = PortalAnswer::undecided;
+    RayAnswer answer = RayAnswer::undecided;
     double along = 0;     ///< of the motion at the time of impact; may be below zero
     DVec<D> normal{0.0};  ///< of length 1, from A to B
     /// The face of A - B that the ray enters, with weights, relative to A at the start.

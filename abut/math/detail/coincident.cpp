@@ -1,4 +1,5 @@
 #include <abut/math/detail/coincident.hpp>
+#include <abut/math/detail/no_index.hpp>
 
 #include <bit>
 #include <cstddef>
@@ -21,13 +22,12 @@ std::size_t hash_of(const Vec3& p) {
 
 // Points are inserted in ascending order, so the first point of a position has the lowest index.
 std::vector<std::uint32_t> first_coincident(std::span<const Vec3> points) {
-    constexpr std::uint32_t none = 0xFFFFFFFF;
     const std::size_t mask = std::bit_ceil(2 * points.size() + 1) - 1;
-    std::vector<std::uint32_t> table(mask + 1, none), result(points.size());
+    std::vector<std::uint32_t> table(mask + 1, no_index), result(points.size());
     for (std::uint32_t i = 0; i < points.size(); ++i) {
         std::size_t place = hash_of(points[i]) & mask;
-        while (table[place] != none && points[table[place]] != points[i]) place = (place + 1) & mask;
-        if (table[place] == none) table[place] = i;
+        while (table[place] != no_index && points[table[place]] != points[i]) place = (place + 1) & mask;
+        if (table[place] == no_index) table[place] = i;
         result[i] = table[place];
     }
     return result;

@@ -2,6 +2,7 @@
 
 // Rigid motions in double, for time of impact queries. For .cpp files.
 
+#include <abut/math/aabb.hpp>
 #include <abut/math/affine.hpp>
 #include <abut/math/detail/sin_cos.hpp>
 #include <abut/math/motion.hpp>
@@ -83,6 +84,15 @@ struct RigidPath {
 struct RelativeMotionBounds {
     double speed, acceleration;
 };
+
+/// The largest distance of a body from its pivot, the origin, by its box; infinite without bounds.
+template <int D>
+double reach_of(const Aabb<D>& box) {
+    DVec<D> farthest;
+    for (int i = 0; i < D; ++i)
+        farthest[i] = std::max(std::abs(static_cast<double>(box.min[i])), std::abs(static_cast<double>(box.max[i])));
+    return length(farthest);
+}
 
 /// Bounds for the points of a body within `reach` of its pivot, in the rotating frame of another path. With p from the
 /// frame's pivot to the body's, and y from that to the point, x = R^T (p + y), so that

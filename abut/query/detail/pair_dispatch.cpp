@@ -3,38 +3,9 @@
 
 #include <abut/convex/manifold/round_manifold.hpp>
 #include <abut/convex/pairs/pair2.hpp>
-#include <abut/query/detail/closed_form/closed_form.hpp>
 #include <abut/query/detail/pair_dispatch.hpp>
 
 namespace abut::detail {
-namespace {
-
-// Paths for any dimension.
-
-template <int D>
-bool any_overlap(const Convex<D>& a, const Convex<D>& b, const SearchOptions<D>& options) {
-    SignedDistance<D> form;
-    if (closed_form_distance(a, b, form)) return form.distance <= 0;
-    return convex_overlap(a, b, options);
-}
-
-template <int D>
-void any_distance(const Convex<D>& a, const Convex<D>& b, const SearchOptions<D>& options, SignedDistance<D>& result) {
-    if (!closed_form_distance(a, b, result)) result = signed_distance(a, b, options);
-}
-
-template <int D>
-bool any_distance_within(const Convex<D>& a, const Convex<D>& b, double reach, const SearchOptions<D>& options,
-                         PartContact<D>& contact) {
-    any_distance(a, b, options, contact.distance);
-    contact.manifold.count = 0;
-    return contact.distance.distance <= reach;
-}
-
-}  // namespace
-
-// Fast paths of the plane have no steps to record. A trace receives the steps of GJK and EPA, and changes no answer.
-
 namespace {
 
 /// Both shapes as polygons, for the fast paths.
@@ -46,32 +17,36 @@ struct PlacedPolygons {
         : known(set_placed_polygon(first, a) && set_placed_polygon(second, b)) {}
 };
 
+bool searched_distance_within(const Convex<2>& a, const Convex<2>& b, double reach, const SearchOptions<2>& options,
+                              PartContact<2>& contact) {
+    contact.distance = signed_distance(a, b, options);
+    contact.manifold.count = 0;
+    return contact.distance.distance <= reach;
+}
+
 }  // namespace
+
+// Fast paths of the plane have no steps to record. A trace receives the steps of GJK and EPA, and changes no answer.
 
 template <>
 bool part_overlaps(const Convex<2>& a, const Convex<2>& b, const SearchOptions<2>& options) {
     PlacedPolygons polygons(a, b);
     const PairAnswer answer =
         polygons.known ? pair2_within(polygons.a, polygons.b, 0, options.cache) : PairAnswer::unknown;
-    if (answer == PairAnswer::unknown) return any_overlap(a, b, options);
-    if (options.trace != nullptr) any_overlap<2>(a, b, {nullptr, options.trace});
+    if (answer == PairAnswer::unknown) return convex_overlap(a, b, options);
+    if (options.trace != nullptr) convex_overlap(a, b, {.trace = options.trace});
     return answer == PairAnswer::yes;
 }
 
 template <>
 SignedDistance<2> part_distance(const Convex<2>& a, const Convex<2>& b, const SearchOptions<2>& options) {
-    SignedDistance<2> result;
     PlacedPolygons polygons(a, b);
     ClosestFeatures2 closest;
-    if (!polygons.known || pair2_closest(polygons.a, polygons.b, options.cache, closest) == PairAnswer::unknown) {
-        any_distance(a, b, options, result);
-        return result;
-    }
+    if (!polygons.known || pair2_closest(polygons.a, polygons.b, options.cache, closest) == PairAnswer::unknown)
+        return signed_distance(a, b, options);
+    if (options.trace != nullptr) signed_distance(a, b, {.trace = options.trace});
+    SignedDistance<2> result;
     write(closest, polygons.a, polygons.b, result);
-    if (options.trace != nullptr) {
-        SignedDistance<2> searched;
-        any_distance<2>(a, b, {nullptr, options.trace}, searched);
-    }
     return result;
 }
 
@@ -84,15 +59,15 @@ bool part_distance_within(const Convex<2>& a, const Convex<2>& b, double reach, 
     const PairAnswer answer = polygons.known
                                   ? pair2_contact(polygons.a, polygons.b, reach, margin, options.cache, closest, points)
                                   : PairAnswer::unknown;
-    if (answer == PairAnswer::unknown) return any_distance_within(a, b, reach, options, contact);
+    if (answer == PairAnswer::unknown) return searched_distance_within(a, b, reach, options, contact);
     if (answer == PairAnswer::yes) {
         write(closest, polygons.a, polygons.b, contact.distance);
         write(points, contact.manifold);
     }
     if (options.trace != nullptr) {
         PartContact<2> searched;
-        if (any_distance_within<2>(a, b, reach, {nullptr, options.trace}, searched))
-            add_points<2>(a, b, margin, {nullptr, options.trace}, searched);
+        if (searched_distance_within(a, b, reach, {.trace = options.trace}, searched))
+            add_points<2>(a, b, margin, {.trace = options.trace}, searched);
     }
     return answer == PairAnswer::yes;
 }

@@ -1,7 +1,7 @@
 #pragma once
 
-// The dispatch of pairs of convex parts. It alone chooses the path for a pair: a closed form, the separating axis test
-// (SAT) of boxes and polygons, or GJK and EPA, which take any pair. All paths give the same answers. For .cpp files.
+// The dispatch of pairs of convex parts. It alone chooses the path for a pair: a closed form, or GJK and
+// EPA, which take any pair. All paths give the same answers. For .cpp files.
 
 #include <abut/convex/gjk/signed_distance.hpp>
 #include <abut/convex/manifold/manifold.hpp>

@@ -61,13 +61,13 @@ void remove_partitions(const std::vector<glm::uvec3>& triangles, const std::vect
     const std::vector<HalfEdge> sorted = sorted_half_edges(triangles);
     each_edge(sorted, [&](std::span<const HalfEdge> edge) {
         std::size_t walls_here = 0, others = 0;
-        std::uint32_t first = no_half_edge;
+        std::uint32_t first = no_index;
         for (const HalfEdge& side : edge) {
             const std::uint32_t triangle = side.side / 3;
             if (removed[triangle]) continue;
             (is_wall[triangle] ? walls_here : others) += 1;
             if (!is_wall[triangle]) continue;
-            if (first == no_half_edge)
+            if (first == no_index)
                 first = triangle;
             else
                 components.unite(first, triangle);
@@ -111,7 +111,7 @@ public:
     /// Divides the neighbour across the longest side. Returns false if that isn't possible.
     bool flip(std::uint32_t sliver) {
         const std::uint32_t side = longest_side(surface_, sliver), beyond = twins_[side];
-        if (beyond == no_half_edge) return false;
+        if (beyond == no_index) return false;
         const std::uint32_t neighbour = beyond / 3;
         if (changed_[sliver] || changed_[neighbour]) return false;
         std::vector<glm::uvec3>& triangles = surface_.triangles;

@@ -35,7 +35,7 @@ bool has_edge(std::span<const HalfEdge> sorted, std::uint32_t a, std::uint32_t b
 }
 
 std::vector<std::uint32_t> twins(std::span<const HalfEdge> sorted) {
-    std::vector<std::uint32_t> result(sorted.size(), no_half_edge);
+    std::vector<std::uint32_t> result(sorted.size(), no_index);
     each_edge(sorted, [&](std::span<const HalfEdge> edge) {
         if (edge.size() != 2 || edge[0].upwards == edge[1].upwards) return;
         result[edge[0].side] = edge[1].side;

@@ -2,11 +2,11 @@
 
 // Half-edges of a triangle mesh: edges, their twins, and edge defects (boundary, non-manifold, inconsistent).
 
+#include <abut/math/detail/no_index.hpp>
 #include <abut/math/vec.hpp>
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -23,8 +23,6 @@ struct HalfEdge {
 
     std::pair<std::uint32_t, std::uint32_t> ends() const { return {low, high}; }
 };
-
-inline constexpr std::uint32_t no_half_edge = std::numeric_limits<std::uint32_t>::max();
 
 inline std::uint32_t next_side(std::uint32_t side) {
     return side % 3 == 2 ? side - 2 : side + 1;
@@ -54,7 +52,7 @@ void each_edge(std::span<const HalfEdge> sorted, Visit visit) {
     }
 }
 
-/// The twin of each half-edge: the opposite half-edge, if exactly these two share the edge; else no_half_edge.
+/// The twin of each half-edge: the opposite half-edge, if exactly these two share the edge; else no_index.
 std::vector<std::uint32_t> twins(std::span<const HalfEdge> sorted);
 
 /// Counts of edges that a consistently oriented closed surface doesn't have.

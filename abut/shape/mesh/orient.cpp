@@ -8,8 +8,6 @@
 namespace abut::detail {
 namespace {
 
-constexpr std::uint32_t none = AdjacentTriangle::none;
-
 void flip(glm::uvec3& triangle) {
     std::swap(triangle.y, triangle.z);
 }
@@ -39,11 +37,11 @@ Patches orient_consistently(Welded& surface) {
 
 Patches orient_consistently(Welded& surface, std::span<const AdjacentTriangle> across) {
     std::vector<glm::uvec3>& triangles = surface.triangles;
-    Patches patches{std::vector<std::uint32_t>(triangles.size(), none), {}};
+    Patches patches{std::vector<std::uint32_t>(triangles.size(), no_index), {}};
     std::vector<bool> flipped(triangles.size(), false);
     std::vector<std::uint32_t> members;
     for (std::uint32_t first = 0; first < triangles.size(); ++first) {
-        if (patches.of[first] != none) continue;
+        if (patches.of[first] != no_index) continue;
         const auto patch = static_cast<std::uint32_t>(patches.count());
         patches.was_consistent.push_back(true);
         patches.of[first] = patch;
@@ -54,9 +52,9 @@ Patches orient_consistently(Welded& surface, std::span<const AdjacentTriangle> a
             (flipped[triangle] ? flipped_area : unflipped_area) += area_of(surface, triangles[triangle]);
             for (std::uint32_t side = 3 * triangle; side < 3 * triangle + 3; ++side) {
                 const auto& [neighbour, consistent] = across[side];
-                if (neighbour == none) continue;
+                if (neighbour == no_index) continue;
                 if (!consistent) patches.was_consistent[patch] = false;
-                if (patches.of[neighbour] != none) continue;
+                if (patches.of[neighbour] != no_index) continue;
                 patches.of[neighbour] = patch;
                 flipped[neighbour] = flipped[triangle] == consistent;
                 members.push_back(neighbour);

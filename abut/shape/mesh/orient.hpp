@@ -2,6 +2,7 @@
 
 // Consistent orientation of triangles.
 
+#include <abut/math/detail/no_index.hpp>
 #include <abut/shape/weld.hpp>
 
 #include <cstddef>
@@ -22,9 +23,7 @@ struct Patches {
 
 /// The triangle across an edge, if exactly two share it, and whether the two run along it in opposite directions.
 struct AdjacentTriangle {
-    static constexpr std::uint32_t none = 0xffffffffu;
-
-    std::uint32_t triangle = none;
+    std::uint32_t triangle = no_index;
     bool consistent = true;
 };
 

@@ -44,6 +44,13 @@ Aabb<D> bounds(const Part<D>& part) {
     return part.visit([](const auto& own) { return bounds(own); });
 }
 
+/// The bounding radius; infinite for a half-space, and for a distance function without bounds.
+template <int D>
+double size(const Part<D>& part) {
+    if (part.is_half_space()) return std::numeric_limits<double>::infinity();
+    return part.is_convex() ? size(part.convex()) : size(part.function());
+}
+
 /// The part that a shape is, which isn't composite.
 template <int D>
 Part<D> single_part(const View<D>& shape) {

@@ -100,24 +100,10 @@ bool is_finite(const Placement<D>& placement) {
     return std::isfinite(sum);
 }
 
-template <int D>
-Convex<D> mapped(const Convex<D>& convex, const Affine<D>& map) {
-    Convex<D> result = convex;
-    static_cast<Placement<D>&>(result) = mapped(static_cast<const Placement<D>&>(convex), map);
-    return result;
-}
-
-template <int D>
-Composite<D> mapped(const Composite<D>& composite, const Affine<D>& map) {
-    Composite<D> result = composite;
-    static_cast<Placement<D>&>(result) = mapped(static_cast<const Placement<D>&>(composite), map);
-    return result;
-}
-
-template <int D>
-DistanceFunction<D> mapped(const DistanceFunction<D>& function, const Affine<D>& map) {
-    DistanceFunction<D> result = function;
-    static_cast<Placement<D>&>(result) = mapped(static_cast<const Placement<D>&>(function), map);
+template <int D, PlacedView<D> V>
+V mapped(const V& view, const Affine<D>& map) {
+    V result = view;
+    static_cast<Placement<D>&>(result) = mapped(static_cast<const Placement<D>&>(view), map);
     return result;
 }
 
@@ -126,24 +112,10 @@ View<D> mapped(const View<D>& view, const Affine<D>& map) {
     return std::visit([&](const auto& shape) -> View<D> { return mapped(shape, map); }, view);
 }
 
-template <int D>
-Convex<D> moved(const Convex<D>& convex, const Affine<D>& rigid) {
-    Convex<D> result = convex;
-    result.place = rigid * convex.place;
-    return result;
-}
-
-template <int D>
-Composite<D> moved(const Composite<D>& composite, const Affine<D>& rigid) {
-    Composite<D> result = composite;
-    result.place = rigid * composite.place;
-    return result;
-}
-
-template <int D>
-DistanceFunction<D> moved(const DistanceFunction<D>& function, const Affine<D>& rigid) {
-    DistanceFunction<D> result = function;
-    result.place = rigid * function.place;
+template <int D, PlacedView<D> V>
+V moved(const V& view, const Affine<D>& rigid) {
+    V result = view;
+    result.place = rigid * view.place;
     return result;
 }
 

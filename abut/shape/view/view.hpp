@@ -53,22 +53,18 @@ bool is_finite(const Placement<D>& placement);
 template <int D>
 bool is_finite(const DistanceFunction<D>& function);
 
-template <int D>
-Convex<D> mapped(const Convex<D>& convex, const Affine<D>& map);
-template <int D>
-Composite<D> mapped(const Composite<D>& composite, const Affine<D>& map);
-template <int D>
-DistanceFunction<D> mapped(const DistanceFunction<D>& function, const Affine<D>& map);
+/// Convex, Composite and DistanceFunction.
+template <class V, int D>
+concept PlacedView = std::derived_from<V, Placement<D>>;
+
+template <int D, PlacedView<D> V>
+V mapped(const V& view, const Affine<D>& map);
 template <int D>
 View<D> mapped(const View<D>& view, const Affine<D>& map);
 
 /// The view after a rigid map, such as a pose. Equal to `mapped`, but cheaper.
-template <int D>
-Convex<D> moved(const Convex<D>& convex, const Affine<D>& rigid);
-template <int D>
-Composite<D> moved(const Composite<D>& composite, const Affine<D>& rigid);
-template <int D>
-DistanceFunction<D> moved(const DistanceFunction<D>& function, const Affine<D>& rigid);
+template <int D, PlacedView<D> V>
+V moved(const V& view, const Affine<D>& rigid);
 template <int D>
 View<D> moved(const View<D>& view, const Affine<D>& rigid);
 

@@ -13,8 +13,9 @@ constexpr double user_margin = 2e-6;
 
 template <int D>
 BoundingBall<D> around(const Aabb<D>& box) {
-    const DVec<D> low(box.min), high(box.max);
-    return {(low + high) * 0.5, 0.5 * length(high - low) + user_margin * std::max(largest(low), largest(high))};
+    BoundingBall<D> result = ball_around(box);
+    result.radius += user_margin * std::max(largest(DVec<D>(box.min)), largest(DVec<D>(box.max)));
+    return result;
 }
 
 template <int D>

@@ -1,4 +1,4 @@
-#include <abut/broad_phase/detail/radix_sort.hpp>
+#include <abut/math/detail/radix_sort.hpp>
 #include <abut/world/detail/pair_index.hpp>
 
 #include <algorithm>

@@ -3,7 +3,6 @@
 #include "../../oracle/pair.hpp"
 #include "../../oracle/simd_targets.hpp"
 #include "../hull/point_sets.hpp"
-#include <abut/convex/gjk/fast_distance.hpp>
 #include <abut/convex/gjk/gjk.hpp>
 #include <abut/convex/gjk/gjk_fast.hpp>
 #include <abut/shape/box.hpp>
@@ -134,14 +133,18 @@ protected:
         const auto note = [&](double number) { result.push_back(std::bit_cast<std::uint64_t>(number)); };
         for (std::uint64_t seed = 0; seed < 200; ++seed) {
             const HullPair pair(seed);
-            GjkFastSimplex simplex;
-            GjkFastDistance gap;
-            result.push_back(static_cast<std::uint64_t>(gjk_fast_distance(pair.a, pair.b, simplex, gap, nullptr)));
-            for (const double number : {gap.upper_bound, gap.lower_bound, gap.on_a.x, gap.on_a.y, gap.on_a.z})
-                note(number);
-            for (int i = 0; i < 3; ++i) note(simplex.toward[i]);
-            result.insert(result.end(), simplex.corner_a.begin(), simplex.corner_a.end());
-            result.insert(result.end(), simplex.corner_b.begin(), simplex.corner_b.end());
+            Cache cache, inside;
+            SignedDistance<3> gap;
+            if (fast_distance(pair.a, pair.b, {.cache = &cache}, gap, inside)) {
+                note(gap.distance);
+                for (int i = 0; i < 3; ++i) note(gap.normal[i]);
+                for (int i = 0; i < 3; ++i) note(gap.on_a[i]);
+            }
+            for (const Cache& simplex : {cache, inside}) {
+                result.push_back(simplex.count);
+                result.insert(result.end(), simplex.corner_a.begin(), simplex.corner_a.end());
+                result.insert(result.end(), simplex.corner_b.begin(), simplex.corner_b.end());
+            }
         }
         return result;
     }

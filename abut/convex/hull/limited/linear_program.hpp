@@ -2,19 +2,12 @@
 
 // Linear programming in 3D over a few half-spaces.
 
-#include <abut/math/vec.hpp>
+#include <abut/convex/hull/highest_plane.hpp>
 
 #include <optional>
 #include <span>
 
 namespace abut::detail {
-
-/// A line in 2D, a plane in 3D: dot(normal, p) == offset, with larger values above it.
-template <int D>
-struct Plane {
-    DVec<D> normal;
-    double offset = 0;
-};
 
 /// The same plane with its sides swapped.
 template <int D>

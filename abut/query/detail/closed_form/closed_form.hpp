@@ -29,11 +29,10 @@ bool closed_form_contact(const ShapeRef<3>& a, const ShapeRef<3>& b, double marg
 PairAnswer closed_form_sweep(const ShapeRef<2>& a, const Vec2& motion_a, const ShapeRef<2>& b, const Vec2& motion_b,
                              std::optional<Hit<2>>& result);
 
-/// The signed distance of a pair of views, as exact as GJK and EPA: a ball against a ball, a segment, a triangle, a
-/// box, a polygon of few edges or the inside of a polyhedron; a segment or capsule against another, a triangle or a
-/// box. Returns false, and leaves `result` unspecified, if the pair has no closed form, or none that is certain.
-/// `result` must be newly constructed: corners with index 0 aren't written.
-template <int D>
-bool closed_form_distance(const Convex<D>& a, const Convex<D>& b, SignedDistance<D>& result);
+/// The signed distance of a pair of views, as exact as GJK and EPA: a ball against a ball, a segment, a triangle, a box
+/// or the inside of a polyhedron; a segment or capsule against another, a triangle or a box. Returns false, and leaves
+/// `result` unspecified, if the pair has no closed form, or none that is certain. `result` must be newly constructed:
+/// corners with index 0 aren't written.
+bool closed_form_distance(const Convex<3>& a, const Convex<3>& b, SignedDistance<3>& result);
 
 }  // namespace abut::detail

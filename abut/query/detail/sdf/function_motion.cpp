@@ -19,14 +19,6 @@ constexpr double step_growth = 0.05;
 /// The limit on halvings of an interval of time that contains the impact.
 constexpr int max_halvings = 40;
 
-/// A line in the local frame of a function.
-template <int D>
-struct LocalLine {
-    DVec<D> origin, direction;
-
-    DVec<D> at(double along) const { return origin + direction * along; }
-};
-
 template <int D>
 double local_distance(const DistanceFunction<D>& function, const DVec<D>& point) {
     const auto here = static_cast<double>(function.distance(function.object, to_float(point)));
@@ -35,8 +27,9 @@ double local_distance(const DistanceFunction<D>& function, const DVec<D>& point)
 
 /// Sphere tracing, for a function without cells. `min_step` is the least step.
 template <int D>
-DistanceCrossing crossing_by_sphere_tracing(const DistanceFunction<D>& function, const LocalLine<D>& line, double reach,
+DistanceCrossing crossing_by_sphere_tracing(const DistanceFunction<D>& function, const DRay<D>& line,
                                             const DistanceRange& range, double min_step) {
+    const double reach = line.length;
     const double speed = length(line.direction) * static_cast<double>(function.slope);
     double along = 0, here = local_distance(function, line.origin);
     for (int step = 0; step < function_ray_max_iterations; ++step) {
@@ -68,7 +61,7 @@ DistanceCrossing crossing_by_sphere_tracing(const DistanceFunction<D>& function,
 
 /// Clips a line to a box.
 template <int D>
-bool clip_to(const DVec<D>& low, const DVec<D>& high, const LocalLine<D>& line, double& from, double& until) {
+bool clip_to(const DVec<D>& low, const DVec<D>& high, const DRay<D>& line, double& from, double& until) {
     for (int i = 0; i < D; ++i) {
         const double below = low[i] - line.origin[i], above = high[i] - line.origin[i];
         if (std::isnan(below) || std::isnan(above)) continue;
@@ -95,7 +88,7 @@ public:
 
     PointSweep(const DistanceFunction<D>& function, const DRay<D>& beam)
         : function_(function), placed_(function), beam_(beam) {
-        line_ = {placed_.back().point(beam.origin), placed_.back().vector(beam.direction)};
+        line_ = {placed_.back().point(beam.origin), placed_.back().vector(beam.direction), beam.length};
     }
 
     /// Points within `tolerance`, a length of the world, count as touching.
@@ -141,10 +134,10 @@ public:
 
 private:
     DistanceCrossing crossing(double from, double until, const DistanceRange& range) const {
-        const LocalLine<D> rest{line_.at(from), line_.direction};
+        const DRay<D> rest{line_.at(from), line_.direction, until - from};
         if (function_.crossing != nullptr)
             return function_.crossing(function_.object, rest.origin, rest.direction, until - from, range);
-        return crossing_by_sphere_tracing(function_, rest, until - from, range, min_step_);
+        return crossing_by_sphere_tracing(function_, rest, range, min_step_);
     }
     bool report(double along, PointImpact& impact) const {
         impact = {along, facing(placed_.normal(beam_.at(along), step_)), false};
@@ -160,7 +153,7 @@ private:
     const DistanceFunction<D>& function_;
     PlacedFunction<D> placed_;
     const DRay<D>& beam_;
-    LocalLine<D> line_;
+    DRay<D> line_;
     double min_step_ = 0, step_ = 0;
 };
 
@@ -249,26 +242,20 @@ std::optional<TimedDistance<D>> time_of_impact_by_proofs(const Part<D>& a, const
     return found;
 }
 
-template <int D>
-double size_of(const Part<D>& part) {
-    if (part.is_half_space()) return std::numeric_limits<double>::infinity();
-    return part.is_convex() ? size(part.convex()) : size(part.function());
-}
-
 /// The first contact gained of two parts, one or both of which are functions.
 template <int D>
 std::optional<TimedDistance<D>> first_contact(const Part<D>& a, const RigidPath<D>& path_a, const Part<D>& b,
                                               const RigidPath<D>& path_b, MotionBounds& motion) {
-    double slope = 1, size = std::numeric_limits<double>::infinity();
+    double slope = 1, smaller = std::numeric_limits<double>::infinity();
     bool has_convex = false, bounds_itself = true;
     for (const Part<D>* part : {&a, &b}) {
         has_convex = has_convex || part->is_convex();
-        size = std::min(size, size_of(*part));
+        smaller = std::min(smaller, size(*part));
         if (!part->is_function()) continue;
         slope = std::max(slope, static_cast<double>(part->function().slope));
         bounds_itself = bounds_itself && part->function().bound != nullptr;
     }
-    motion.sliding_interval = slide_stride * size / motion.speed;
+    motion.sliding_interval = slide_stride * smaller / motion.speed;
     motion.speed *= slope;
     if (has_convex && bounds_itself) return time_of_impact_by_proofs(a, path_a, b, path_b, motion);
     // The distance of two fields may jump by the error of its search, which is more than it changes in this time.
@@ -318,7 +305,7 @@ bool function_time_of_impact(const AnyPart<D>& a, const Path<D>& path, const Any
     motion.tolerance = function_tolerance<D>(a, b);
     motion.end = path.length;
     const Aabb<D> box_a = grown(bounds(a), static_cast<float>(motion.tolerance)), box_b = bounds(b);
-    const LocalLine<D> relative{DVec<D>(0.0), path.direction};
+    const DRay<D> relative{DVec<D>(0.0), path.direction, path.length};
     if (!clip_to(DVec<D>(box_b.min) - DVec<D>(box_a.max), DVec<D>(box_b.max) - DVec<D>(box_a.min), relative,
                  motion.from, motion.end))
         return false;

@@ -31,14 +31,6 @@ bool has_no_extent(const Aabb<D>& box) {
     return !(box.min[0] <= box.max[0]);
 }
 
-/// Infinite without bounds.
-template <int D>
-double finite_size(const Part<D>& part) {
-    if (part.is_convex()) return size(part.convex());
-    return part.is_function() && is_bounded(part.function().bounds) ? size(part.function())
-                                                                    : std::numeric_limits<double>::infinity();
-}
-
 /// The largest coordinate at which a function is evaluated beside a convex set, in its local frame.
 template <int D>
 double largest_query_coordinate(const DistanceFunction<D>& function, const Convex<D>& set) {
@@ -263,7 +255,7 @@ Manifold<D> points_on_plane(const DistanceFunction<D>& function, const HalfSpace
 template <int D>
 double function_tolerance(const Part<D>& a, const Part<D>& b) {
     if (!a.is_function()) return function_tolerance(b, a);
-    const double smaller = std::min(finite_size(a), finite_size(b));
+    const double smaller = std::min(size(a), size(b));
     double coordinate =
         b.is_convex() ? largest_query_coordinate(a.function(), b.convex()) : largest_query_coordinate(a.function());
     if (b.is_function()) coordinate = std::max(coordinate, largest_query_coordinate(b.function()));
@@ -272,7 +264,7 @@ double function_tolerance(const Part<D>& a, const Part<D>& b) {
 
 template <int D>
 double function_search_tolerance(const Part<D>& a, const Part<D>& b) {
-    const double margin = function_tolerance(a, b), smaller = std::min(finite_size(a), finite_size(b));
+    const double margin = function_tolerance(a, b), smaller = std::min(size(a), size(b));
     // Functions that need no search, functions with bounds for boxes, and all others.
     double of_size = 0;
     for (const Part<D>* part : {&a, &b}) {

@@ -30,18 +30,6 @@ inline constexpr double slide_stride = 0.25;
 /// share of the rest.
 inline constexpr int function_sweep_max_iterations = 256;
 
-/// The largest distance of a part from its pivot, the origin, by its box; infinite without bounds.
-template <int D>
-double reach_of(const Aabb<D>& box) {
-    double squares = 0;
-    for (int i = 0; i < D; ++i) {
-        const double farthest =
-            std::max(std::abs(static_cast<double>(box.min[i])), std::abs(static_cast<double>(box.max[i])));
-        squares += farthest * farthest;
-    }
-    return std::sqrt(squares);
-}
-
 /// The bounds on the motion of two parts that the searches use.
 struct MotionBounds {
     double end = 1;               ///< times go from 0 to this

@@ -171,8 +171,8 @@ private:
         if (!is_polytope(a_) || !is_polytope(b_)) return FastAnswer::undecided;
         const PortalHit<D> hit = enter_difference(
             a_, b_, path_.direction, PortalTolerances{0.25 * tolerances_.touch, beyond_sliding * tolerances_.slide});
-        if (hit.answer == PortalAnswer::undecided) return FastAnswer::undecided;
-        if (hit.answer == PortalAnswer::misses) return FastAnswer::misses;
+        if (hit.answer == RayAnswer::undecided) return FastAnswer::undecided;
+        if (hit.answer == RayAnswer::misses) return FastAnswer::misses;
         const double closing = dot(path_.direction, hit.normal);
         if (!(hit.along * closing > tolerances_.touch))
             return b_is_behind() ? FastAnswer::misses : FastAnswer::undecided;

@@ -1,3 +1,4 @@
+#include <abut/convex/bounding_ball.hpp>
 #include <abut/math/assert.hpp>
 #include <abut/query/detail/sdf/function_motion.hpp>
 #include <abut/query/detail/sweep/rotating.hpp>
@@ -18,24 +19,12 @@ struct TimeSpan {
     double from = 0, to = 1;
 };
 
-/// A ball around a shape, in the frame that the shape's path moves.
-template <int D>
-struct LocalBall {
-    DVec<D> center{0.0};
-    double radius = 0;
-};
-template <int D>
-LocalBall<D> local_ball(const Aabb<D>& box) {
-    const DVec<D> low(box.min), high(box.max);
-    return {(low + high) * 0.5, 0.5 * length(high - low)};
-}
-
 /// A moving ball in the frame of another path. Between two times h apart its centre x is within |x''| h^2 / 8 of the
 /// chord.
 template <int D>
 class MovingBall {
 public:
-    MovingBall(const LocalBall<D>& ball, const RigidPath<D>& path, const RigidPath<D>& frame)
+    MovingBall(const BoundingBall<D>& ball, const RigidPath<D>& path, const RigidPath<D>& frame)
         : ball_(ball),
           path_(path),
           frame_(frame),
@@ -60,7 +49,7 @@ private:
         return frame.transposed(place_at(path_, time).point(ball_.center) - frame.offset);
     }
 
-    LocalBall<D> ball_;
+    BoundingBall<D> ball_;
     RigidPath<D> path_, frame_;
     double acceleration_;
 };
@@ -79,10 +68,10 @@ public:
               const RigidPath<D>& path_of_other)
         : composite_(composite), is_empty_(!(box_of_other.min[0] <= box_of_other.max[0])) {
         if (is_empty_ || !(is_finite(box_of_other.min) && is_finite(box_of_other.max))) return;
-        const LocalBall<D> ball = local_ball(box_of_other);
+        const BoundingBall<D> ball = ball_around(box_of_other);
         moving_.emplace(ball, path_of_other, path);
         // At least the largest gap at an impact: half of the tolerance.
-        margin_ = 1e-5 * ball.radius + 1e-6 * local_ball(bounds(composite)).radius;
+        margin_ = 1e-5 * ball.radius + 1e-6 * ball_around(bounds(composite)).radius;
     }
 
     /// Calls visit(part, index) for at least all parts that may be hit in this span.
