@@ -32,7 +32,7 @@ HWY_INLINE void place(const PolygonSoa& sides, const Rigid2& pose, Points& point
     const Vector cos = hn::Set(d, pose.cos), sin = hn::Set(d, pose.sin);
     const Vector offset_x = hn::Set(d, pose.x), offset_y = hn::Set(d, pose.y);
     for (std::size_t i = 0; i < sides.capacity(); i += lanes) {
-        const Vector x = hn::LoadU(d, sides.x() + i), y = hn::LoadU(d, sides.y() + i);
+        const Vector x = hn::LoadU(d, sides.at(i)), y = hn::LoadU(d, sides.at(i) + soa_lanes);
         hn::Store(hn::Add(hn::Sub(hn::Mul(cos, x), hn::Mul(sin, y)), offset_x), d, points.x + i);
         hn::Store(hn::Add(hn::Add(hn::Mul(sin, x), hn::Mul(cos, y)), offset_y), d, points.y + i);
     }
@@ -44,11 +44,11 @@ template <std::size_t groups, class Visitor>
 HWY_INLINE void visit_edge_gaps(const PolygonSoa& sides, std::size_t first, const double* x, const double* y,
                                 std::uint32_t count, Visitor& visitor) {
     Vector normal_x[groups], normal_y[groups], lowest_height[groups];
-    const double *rows_x = sides.normal_x() + first, *rows_y = sides.normal_y() + first;
     const Vector x0 = hn::Set(d, x[0]), y0 = hn::Set(d, y[0]);
     for (std::size_t g = 0; g < groups; ++g) {
-        normal_x[g] = hn::LoadU(d, rows_x + g * lanes);
-        normal_y[g] = hn::LoadU(d, rows_y + g * lanes);
+        const double* const numbers = sides.at(first + g * lanes);
+        normal_x[g] = hn::LoadU(d, numbers + 2 * soa_lanes);
+        normal_y[g] = hn::LoadU(d, numbers + 3 * soa_lanes);
         lowest_height[g] = hn::Add(hn::Mul(normal_x[g], x0), hn::Mul(normal_y[g], y0));
     }
     for (std::uint32_t k = 1; k < count; ++k) {
@@ -58,7 +58,8 @@ HWY_INLINE void visit_edge_gaps(const PolygonSoa& sides, std::size_t first, cons
     }
     for (std::size_t g = 0; g < groups; ++g) {
         const std::size_t i = first + g * lanes;
-        visitor.visit(hn::Sub(lowest_height[g], hn::LoadU(d, sides.offset() + i)), normal_x[g], normal_y[g], i);
+        visitor.visit(hn::Sub(lowest_height[g], hn::LoadU(d, sides.at(i) + 4 * soa_lanes)), normal_x[g], normal_y[g],
+                      i);
     }
 }
 

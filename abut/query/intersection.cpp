@@ -58,8 +58,8 @@ bool fast_intersection(const Convex<2>& a, const Convex<2>& b, Polygon& out) {
     for (PlacedPolygon* polygon : {&polygon_a, &polygon_b}) {
         polygon->make_rows();
         const PolygonSoa& sides = polygon->sides;
-        scale = std::max({scale, largest(vector_of(polygon->place.position)), sides.size(), std::abs(sides.x()[0]),
-                          std::abs(sides.y()[0])});
+        scale = std::max({scale, largest(vector_of(polygon->place.position)), sides.size(), std::abs(sides.x(0)),
+                          std::abs(sides.y(0))});
     }
     ClippedLoop loop;
     if (!(scale < 1e37) || !clip_polygons(polygon_a, polygon_b, loop)) return false;

@@ -220,6 +220,27 @@ TEST(PlanePairs, MoveWithTheirCacheFromOverlappingToApart) {
     }
 }
 
+/// Of a triangle around a point, the first edge was named (4, 5): its padding won the tie of the two.
+TEST(PlanePairs, NameTheNearestEdgeOfAPolygonAroundACircle) {
+    for (std::size_t count = 3; count <= max_soa_edges; ++count) {
+        std::vector<Vec2> corners;
+        for (std::size_t i = 0; i < count; ++i) {
+            const Turn turn = Turn::by(6.2831853f * static_cast<float>(i) / static_cast<float>(count));
+            corners.emplace_back(turn.cos, turn.sin);
+        }
+        const Polygon polygon = *Polygon::build(corners);
+        ASSERT_EQ(polygon.points().size(), count);
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const std::uint32_t next = i + 1 == count ? 0 : i + 1;
+            const Circle circle{0.45f * (polygon.points()[i] + polygon.points()[next]), 0.01f};
+            const Feature edge{0, edge_index(i, next), FeatureKind::edge};
+            EXPECT_EQ(closest(polygon, circle).feature_a, edge) << count;
+            EXPECT_EQ(closest(circle, at(polygon, Pose2{})).feature_b, edge) << count;
+            EXPECT_EQ(contact(polygon, circle).feature_a, edge) << count;
+        }
+    }
+}
+
 TEST(PlaneIntersection, IsThatOfTheGeneralCut) {
     int overlapping = 0, pairs = 0;
     Polygon direct;

@@ -45,14 +45,14 @@ bool clip_polygons(const PlacedPolygon& a, const PlacedPolygon& b, ClippedLoop& 
     pair.set_relative_places();
     const Rigid2 seen = rigid(pair.seen_from(of));
     const double tolerance =
-        0x1p-47 * (std::abs(seen.x) + std::abs(seen.y) + 2 * (body.size() + tool.size()) + std::abs(body.x()[0]) +
-                   std::abs(body.y()[0]) + std::abs(tool.x()[0]) + std::abs(tool.y()[0]));
+        0x1p-47 * (std::abs(seen.x) + std::abs(seen.y) + 2 * (body.size() + tool.size()) + std::abs(body.x(0)) +
+                   std::abs(body.y(0)) + std::abs(tool.x(0)) + std::abs(tool.y(0)));
     PlanarLoop loops[2];
     PlanarLoop *now = &loops[0], *next = &loops[1];
-    for (std::uint32_t i = 0; i < body.count; ++i) now->push_back(body.x()[i], body.y()[i]);
+    for (std::uint32_t i = 0; i < body.count; ++i) now->push_back(body.x(i), body.y(i));
     for (std::uint32_t side = 0; side < tool.count && now->count > 0; ++side) {
         const DVec<2> normal = seen.vector(tool.normal(side));
-        const double offset = tool.offset()[side] + (normal.x * seen.x + normal.y * seen.y);
+        const double offset = tool.offset(side) + (normal.x * seen.x + normal.y * seen.y);
         double heights[2 * max_soa_edges], highest = -std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i < now->count; ++i) {
             heights[i] = (normal.x * now->x[i] + normal.y * now->y[i]) - offset;

@@ -38,50 +38,13 @@ struct ClosestFeatures2 {
     }
 };
 
-inline bool is_finite(double number) {
-    return std::abs(number) < std::numeric_limits<double>::infinity();
-}
-
-/// A polygon, which is A (`of` = 0) or B, and a point.
-template <class Core>
-[[gnu::always_inline]] inline PairAnswer closest_to_point(const Core& shape, Double2 point, std::uint32_t of,
-                                                          double reach, ClosestFeatures2& closest) {
-    PointLocation found;
-    const bool near = locate(shape, shape.place().back(point - shape.place().position), reach, found);
-    if (!is_finite(found.gap)) return PairAnswer::unknown;
-    if (!near) return PairAnswer::no;
-    closest.of = of;
-    closest.set_corners(found.first, found.second, 0);
-    closest.gap = found.gap;
-    closest.normal = shape.place().vector(found.normal);
-    closest.on_other = point;
-    closest.on_reference = point - closest.normal * lanes::double2(found.gap);
-    return PairAnswer::yes;
-}
-
-/// Two points.
-inline PairAnswer closest_points(Double2 a, Double2 b, double reach, ClosestFeatures2& closest) {
-    const Double2 between = b - a, square = lanes::dot(between, between), gap = lanes::root(square);
-    if (!(gap[0] > 0 && is_finite(gap[0]))) return PairAnswer::unknown;
-    closest.of = 0;
-    closest.set_corners(0, 0, 0);
-    closest.gap = gap[0];
-    closest.normal = between * (gap * (Double2{1, 1} / square));
-    closest.on_reference = a;
-    closest.on_other = b;
-    return gap[0] > reach ? PairAnswer::no : PairAnswer::yes;
-}
-
 /// Two cores of one kind, neither of which is a point.
 template <class Core>
 class CorePair {
 public:
     /// Both must outlive the pair.
     CorePair(const PlacedPolygon& a, const PlacedPolygon& b)
-        : shapes_{Core(a), Core(b)}, between_(b.place.position - a.place.position) {
-        const Double2 place = lanes::magnitude(between_);
-        scale_ = (place[0] + place[1]) + (shapes_[0].size() + shapes_[1].size());
-    }
+        : shapes_{Core(a), Core(b)}, between_(b.place.position - a.place.position) {}
 
     /// Places each shape relative to the other, for all that isn't answered by the cache.
     void set_relative_places() {
@@ -97,17 +60,21 @@ public:
     const LanePose& seen_from(std::uint32_t of) const { return seen_[of]; }
 
     /// The magnitude of all numbers.
-    double scale() const { return scale_; }
+    double scale() const {
+        const Double2 place = lanes::magnitude(between_);
+        return (place[0] + place[1]) + (shapes_[0].size() + shapes_[1].size());
+    }
 
     /// The closest features, if the gap between the cores is at most `reach`.
     [[gnu::always_inline]] inline PairAnswer find_closest(double reach, Cache* cache, ClosestFeatures2& closest) {
         const bool all = !is_finite(reach);
         if (cache != nullptr && (all ? closest_from_cache(*cache, closest) : separated_by_cache(*cache, reach)))
             return all ? PairAnswer::yes : PairAnswer::no;
-        if (!is_finite(scale_)) return PairAnswer::unknown;
+        const double magnitude = scale();
+        if (!is_finite(magnitude)) return PairAnswer::unknown;
         set_relative_places();
         EdgeGap widest;
-        find_widest_gap(shapes_[0], shapes_[1], seen_, reach, 1e-14 * scale_, widest);
+        find_widest_gap(shapes_[0], shapes_[1], seen_, reach, 1e-14 * magnitude, widest);
         if (widest.gap > reach) {
             if (cache != nullptr) store_edge(widest, *cache);
             return PairAnswer::no;
@@ -120,11 +87,12 @@ public:
         if (cache != nullptr && separated_by_cache(*cache, reach)) return PairAnswer::no;
         // Bounding circles around the positions.
         const double far = reach + shapes_[0].outer_radius() + shapes_[1].outer_radius();
-        if (!is_finite(scale_)) return PairAnswer::unknown;
+        const double magnitude = scale();
+        if (!is_finite(magnitude)) return PairAnswer::unknown;
         if (lanes::dot(between_, between_)[0] > far * far) return PairAnswer::no;
         set_relative_places();
         EdgeGap widest;
-        find_widest_gap(shapes_[0], shapes_[1], seen_, reach, 1e-14 * scale_, widest);
+        find_widest_gap(shapes_[0], shapes_[1], seen_, reach, 1e-14 * magnitude, widest);
         if (widest.gap <= 0 || widest.gap > reach) {
             if (cache != nullptr) store_edge(widest, *cache);
             return widest.gap > 0 ? PairAnswer::no : PairAnswer::yes;
@@ -161,7 +129,7 @@ private:
     /// which has the place `local_corner` in the frame of the edge.
     [[gnu::always_inline]] inline EdgeRegion set_edge(std::uint32_t of, std::uint32_t side, std::uint32_t corner,
                                                       Double2 local_corner, ClosestFeatures2& closest) const {
-        const Core reference = shapes_[of], other = shapes_[1 - of];
+        const Core &reference = shapes_[of], &other = shapes_[1 - of];
         const Double2 own_corner = other.corner(corner), normal = reference.normal(side);
         closest.of = of;
         closest.gap = lanes::dot(normal, local_corner)[0] - reference.offset(side);
@@ -173,14 +141,15 @@ private:
     }
 
     /// The direction between two points that are nearer may be rounding.
-    double touching() const { return on_corner * scale_; }
+    double touching() const { return on_corner * scale(); }
 
     /// Two corners. Returns false unless they are apart and, if it isn't known, each is farthest in the direction of
     /// the other.
     bool set_corners(std::uint32_t corner_a, std::uint32_t corner_b, bool known, ClosestFeatures2& closest) const {
         const Double2 offset_a = from_position(shapes_[0], corner_a), offset_b = from_position(shapes_[1], corner_b);
         const Double2 between = between_ + (offset_b - offset_a), square = lanes::dot(between, between);
-        if (!(square[0] > touching() * touching())) return false;
+        const double apart = touching();
+        if (!(square[0] > apart * apart)) return false;
         if (!known && !(shapes_[0].is_farthest(corner_a, shapes_[0].place().back(between)) &&
                         shapes_[1].is_farthest(corner_b, -shapes_[1].place().back(between))))
             return false;
@@ -244,13 +213,13 @@ private:
         closest.corners[1 - widest.of][1] = next;
         closest.on_other = shapes_[widest.of].place().point(on_other);
         closest.on_reference = shapes_[widest.of].place().point(on_reference);
-        return lanes::dot(off, off)[0] <= 1e-18 * scale_ * scale_;
+        return lanes::dot(off, off)[0] <= 1e-18 * scale() * scale();
     }
 
     // Warm start: the cache names an edge and a corner, or two corners.
 
     /// The closest features of the last query, if they are still closest.
-    [[gnu::noinline]] bool closest_from_cache(const Cache& cache, ClosestFeatures2& closest) const {
+    [[gnu::always_inline]] bool closest_from_cache(const Cache& cache, ClosestFeatures2& closest) const {
         if (!names_features(cache)) return false;
         const std::uint32_t corner_a = shapes_[0].corner_of(cache.corner_a[0]),
                             corner_b = shapes_[1].corner_of(cache.corner_b[0]);
@@ -270,7 +239,7 @@ private:
         const std::uint32_t side = reference.corner_of(of == 0 ? cache.corner_a[0] : cache.corner_b[0]);
         const Double2 normal = reference.place().vector(reference.normal(side));
         const double away = lanes::dot(normal, between(of))[0], lowest = other.lowest(other.place().back(normal));
-        return away + lowest - reference.offset(side) > reach + 1e-14 * scale_;
+        return away + lowest - reference.offset(side) > reach + 1e-14 * scale();
     }
     bool names_features(const Cache& cache) const {
         return cache.count > 0 && cache.count <= 2 && cache.corner_a[0] < shapes_[0].count() &&
@@ -300,7 +269,6 @@ private:
     Core shapes_[2];
     LanePose seen_[2];
     Double2 between_;
-    double scale_;
 };
 
 }  // namespace abut::detail

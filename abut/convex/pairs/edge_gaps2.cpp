@@ -56,7 +56,7 @@ void widest_gap_of_two(const PolygonSoa& a, const PolygonSoa& b, const Rigid2 (&
     result.of = of;
     result.side = side;
     result.corner =
-        lowest(points[of], (of == 0 ? b : a).capacity(), reference.normal_x()[side], reference.normal_y()[side]);
+        lowest(points[of], (of == 0 ? b : a).capacity(), reference.normal_x(side), reference.normal_y(side));
 }
 
 }  // namespace abut::detail::HWY_NAMESPACE

@@ -7,7 +7,7 @@ constexpr double unlimited = std::numeric_limits<double>::infinity();
 
 /// Calls query(pair) with the pair's cores: without rows if neither has any.
 template <class Query>
-inline PairAnswer with_cores(PlacedPolygon& a, PlacedPolygon& b, const Query& query) {
+[[gnu::always_inline]] inline PairAnswer with_cores(PlacedPolygon& a, PlacedPolygon& b, const Query& query) {
     if (a.core != PlacedPolygon::Core::polygon && b.core != PlacedPolygon::Core::polygon)
         return query(CorePair<BoxCore>(a, b));
     a.make_rows();
@@ -23,22 +23,23 @@ inline void set_numbers(const Core& a, const Core& b, ClosestFeatures2& closest)
     }
 }
 
-/// Pairs of which one is a point. If the answer is to be `exact`, a closest point at a corner is exactly there.
-template <bool exact>
-[[gnu::always_inline]] inline PairAnswer closest_of_points(const PlacedPolygon& a, const PlacedPolygon& b, double reach,
-                                                           ClosestFeatures2& closest) {
-    if (a.is_point() && b.is_point()) return closest_points(a.place.position, b.place.position, reach, closest);
-    const std::uint32_t of = a.is_point() ? 1 : 0;
+/// Pairs of which one is a point.
+inline PairAnswer closest_of_points(const PlacedPolygon& a, const PlacedPolygon& b, double reach,
+                                    ClosestFeatures2& closest) {
+    const std::uint32_t of = b.is_point() ? 0 : 1;
     const PlacedPolygon &shape = of == 0 ? a : b, &point = of == 0 ? b : a;
-    const auto find = [&](const auto& core) {
-        const PairAnswer answer = closest_to_point(core, point.place.position, of, reach, closest);
+    return with_core(shape, point.place.position, point.radius, [&](const auto& core, const RoundPoint& round) {
+        PointFeatures2 found;
+        const PairAnswer answer = closest_to_point(core, round, reach, found);
         if (answer != PairAnswer::yes) return answer;
-        std::uint32_t(&corners)[2] = closest.corners[of];
-        if (exact && corners[0] == corners[1]) closest.on_reference = shape.place.point(core.corner(corners[0]));
-        for (std::uint32_t& corner : corners) corner = core.number(corner);
+        closest.of = of;
+        closest.set_corners(core.number(found.first), core.number(found.second), 0);
+        closest.gap = found.gap;
+        closest.normal = found.normal;
+        closest.on_other = point.place.position;
+        closest.on_reference = found.on_core(core, point.place.position);
         return answer;
-    };
-    return shape.core == PlacedPolygon::Core::polygon ? find(PolygonCore(shape)) : find(BoxCore(shape));
+    });
 }
 
 /// The feature is zero for an edge, the corner's number for a corner.
@@ -58,18 +59,18 @@ inline void set_only_point(const PlacedPolygon& a, const PlacedPolygon& b, const
 }  // namespace
 
 PairAnswer pair2_within(PlacedPolygon& a, PlacedPolygon& b, double reach, Cache* cache) {
-    const double reach_of_cores = reach + (a.radius + b.radius);
-    if (!is_finite(a.radius + b.radius)) return PairAnswer::unknown;
     if (a.is_point() || b.is_point()) {
         ClosestFeatures2 closest;
-        return closest_of_points<false>(a, b, reach_of_cores, closest);
+        return closest_of_points(a, b, reach, closest);
     }
+    const double reach_of_cores = reach + (a.radius + b.radius);
+    if (!is_finite(a.radius + b.radius)) return PairAnswer::unknown;
     return with_cores(a, b, [&](auto pair) { return pair.within(reach_of_cores, cache); });
 }
 
 PairAnswer pair2_closest(PlacedPolygon& a, PlacedPolygon& b, Cache* cache, ClosestFeatures2& closest) {
+    if (a.is_point() || b.is_point()) return closest_of_points(a, b, unlimited, closest);
     if (!is_finite(a.radius + b.radius)) return PairAnswer::unknown;
-    if (a.is_point() || b.is_point()) return closest_of_points<true>(a, b, unlimited, closest);
     return with_cores(a, b, [&](auto pair) {
         const PairAnswer answer = pair.find_closest(unlimited, cache, closest);
         if (answer == PairAnswer::yes) set_numbers(pair.shape(0), pair.shape(1), closest);
@@ -79,13 +80,13 @@ PairAnswer pair2_closest(PlacedPolygon& a, PlacedPolygon& b, Cache* cache, Close
 
 PairAnswer pair2_contact(PlacedPolygon& a, PlacedPolygon& b, double reach, double margin, Cache* cache,
                          ClosestFeatures2& closest, ContactLanes& points) {
-    const double reach_of_cores = reach + (a.radius + b.radius);
-    if (!is_finite(a.radius + b.radius)) return PairAnswer::unknown;
     if (a.is_point() || b.is_point()) {
-        const PairAnswer answer = closest_of_points<false>(a, b, reach_of_cores, closest);
+        const PairAnswer answer = closest_of_points(a, b, reach, closest);
         if (answer == PairAnswer::yes) set_only_point(a, b, closest, points);
         return answer;
     }
+    const double reach_of_cores = reach + (a.radius + b.radius);
+    if (!is_finite(a.radius + b.radius)) return PairAnswer::unknown;
     return with_cores(a, b, [&](auto pair) {
         const PairAnswer answer = pair.find_closest(reach_of_cores, cache, closest);
         if (answer != PairAnswer::yes) return answer;

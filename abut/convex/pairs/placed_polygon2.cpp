@@ -3,6 +3,10 @@
 
 namespace abut::detail {
 
+ScaledTurn ScaledTurn::normalised(const Turn& given) {
+    return {abut::detail::unit_turn(given), lanes::double2(1)};
+}
+
 bool PlacedPolygon::set_triangle(const Vec2& a, const Vec2& b, const Vec2& c) {
     const DVec<2> points[] = {DVec<2>(a), DVec<2>(b), DVec<2>(c)}, u = points[1] - points[0], v = points[2] - points[0];
     const double area = cross(u, v);
@@ -17,18 +21,18 @@ bool PlacedPolygon::set_triangle(const Vec2& a, const Vec2& b, const Vec2& c) {
 
 namespace {
 
-/// Writes four columns of rows, and the size and the area.
+/// Writes the size, the area and one block.
 void write_rows(const double (&x)[4], const double (&y)[4], const double (&normal_x)[4], const double (&normal_y)[4],
                 const double (&offset)[4], double size, double area, double* numbers) {
+    numbers[0] = size;
+    numbers[1] = area;
     for (std::size_t i = 0; i < 4; ++i) {
-        numbers[i] = x[i];
-        numbers[4 + i] = y[i];
-        numbers[8 + i] = normal_x[i];
-        numbers[12 + i] = normal_y[i];
-        numbers[16 + i] = offset[i];
+        numbers[2 + i] = x[i];
+        numbers[6 + i] = y[i];
+        numbers[10 + i] = normal_x[i];
+        numbers[14 + i] = normal_y[i];
+        numbers[18 + i] = offset[i];
     }
-    numbers[20] = size;
-    numbers[21] = area;
 }
 
 }  // namespace

@@ -35,11 +35,27 @@ inline Rigid2 rigid(const LanePose& pose) {
     return {pose.cos[0], pose.sin[0], pose.position[0], pose.position[1]};
 }
 
+/// The cosine and sine of a turn, to be multiplied by `scale`, which normalises them like `unit(turn)`. Queries that
+/// scale late don't wait for it.
+struct ScaledTurn {
+    Double2 turn, scale;
+
+    explicit ScaledTurn(const Turn& given) : turn(lanes::loaded(&given.cos)) {
+        const Double2 squares = lanes::dot(turn, turn);
+        scale = lanes::inverse_root(squares);
+        if (!lanes::is_near_one(squares[0])) *this = normalised(given);
+    }
+    Double2 unit_turn() const { return turn * scale; }
+
+private:
+    ScaledTurn(Double2 unit, Double2 one) : turn(unit), scale(one) {}
+    static ScaledTurn normalised(const Turn& given);
+};
 /// The cosine and sine of a turn, normalised like `unit(turn)`.
 inline Double2 unit_turn(const Turn& turn) {
     const Double2 v = lanes::loaded(&turn.cos), squares = lanes::dot(v, v);
     if (lanes::is_near_one(squares[0])) return v * lanes::inverse_root(squares);
-    const DVec<2> u = unit<2>({static_cast<double>(turn.cos), static_cast<double>(turn.sin)});
+    const DVec<2> u = unit(vector_of(v));
     return lanes::double2(u.x, u.y);
 }
 inline LanePose lane_pose(const Pose2& pose) {

@@ -38,13 +38,11 @@ public:
     std::uint32_t contact_number(std::uint32_t i) const { return name_in(polygon_->names->contact, i); }
     std::uint32_t after(std::uint32_t i) const { return sides().after(i); }
     std::uint32_t before(std::uint32_t i) const { return sides().before(i); }
-    Double2 corner(std::uint32_t i) const { return lanes::double2(sides().x()[i], sides().y()[i]); }
-    Double2 normal(std::uint32_t side) const {
-        return lanes::double2(sides().normal_x()[side], sides().normal_y()[side]);
-    }
-    double offset(std::uint32_t side) const { return sides().offset()[side]; }
+    Double2 corner(std::uint32_t i) const { return lanes::double2(sides().x(i), sides().y(i)); }
+    Double2 normal(std::uint32_t side) const { return lanes::double2(sides().normal_x(side), sides().normal_y(side)); }
+    double offset(std::uint32_t side) const { return sides().offset(side); }
     /// The magnitude of its numbers.
-    double size() const { return std::abs(sides().x()[0]) + std::abs(sides().y()[0]) + 2 * sides().size(); }
+    double size() const { return std::abs(sides().x(0)) + std::abs(sides().y(0)) + 2 * sides().size(); }
     /// An upper bound of the distance of its points from its origin.
     double outer_radius() const { return size(); }
     /// About half the diagonal of the bounding box.
@@ -54,39 +52,39 @@ public:
         const Double2 x = lanes::first(direction), y = lanes::second(direction);
         Double2 lowest_dot = lanes::double2(std::numeric_limits<double>::infinity());
         for (std::size_t i = 0; i < sides().count; i += 2)
-            lowest_dot = lanes::lesser(x * lanes::at(sides().x() + i) + y * lanes::at(sides().y() + i), lowest_dot);
+            lowest_dot =
+                lanes::lesser(x * lanes::at(sides().at(i)) + y * lanes::at(sides().at(i) + soa_lanes), lowest_dot);
         return std::min(lowest_dot[0], lowest_dot[1]);
     }
     /// Whether no vertex lies farther in that direction: it is between the normals of the vertex's two edges.
     bool is_farthest(std::uint32_t i, Double2 direction) const {
         const std::uint32_t last = before(i);
         return sides().count == 1 ||
-               lanes::bits(turned(lanes::double2(sides().normal_x()[i], sides().normal_x()[last]),
-                                  lanes::double2(sides().normal_y()[i], sides().normal_y()[last]),
-                                  lanes::first(direction), lanes::second(direction)) <= Double2{0, 0}) == 3;
+               lanes::bits(turned(lanes::double2(sides().normal_x(i), sides().normal_x(last)),
+                                  lanes::double2(sides().normal_y(i), sides().normal_y(last)), lanes::first(direction),
+                                  lanes::second(direction)) <= Double2{0, 0}) == 3;
     }
     EdgeRegion voronoi_region(std::uint32_t side, Double2 point) const {
         const std::uint32_t end = after(side);
-        const Double2 crosses =
-            turned(lanes::double2(sides().normal_x()[side]), lanes::double2(sides().normal_y()[side]),
-                   lanes::first(point) - lanes::double2(sides().x()[end], sides().x()[side]),
-                   lanes::second(point) - lanes::double2(sides().y()[end], sides().y()[side]));
+        const Double2 crosses = turned(lanes::double2(sides().normal_x(side)), lanes::double2(sides().normal_y(side)),
+                                       lanes::first(point) - lanes::double2(sides().x(end), sides().x(side)),
+                                       lanes::second(point) - lanes::double2(sides().y(end), sides().y(side)));
         return static_cast<EdgeRegion>(lanes::bits(crosses <= Double2{0, 0}) ^ 3);
     }
     /// Of two equals, the edge after the corner.
     FacingEdge facing(std::uint32_t corner, Double2 direction) const {
         const std::uint32_t last = before(corner);
         const Double2 alignments =
-            lanes::double2(sides().normal_x()[corner], sides().normal_x()[last]) * lanes::first(direction) +
-            lanes::double2(sides().normal_y()[corner], sides().normal_y()[last]) * lanes::second(direction);
+            lanes::double2(sides().normal_x(corner), sides().normal_x(last)) * lanes::first(direction) +
+            lanes::double2(sides().normal_y(corner), sides().normal_y(last)) * lanes::second(direction);
         const Double2 best = lanes::greater(alignments, lanes::swapped(alignments));
         return {corner ^ ((corner ^ last) & (0u - (lanes::bits(alignments < best) & 1))), best[0]};
     }
     /// Whether an edge has a length.
     bool is_proper(std::uint32_t) const { return true; }
     /// The ends of an edge, one in each lane.
-    Double2 ends_x(std::uint32_t side) const { return lanes::double2(sides().x()[side], sides().x()[after(side)]); }
-    Double2 ends_y(std::uint32_t side) const { return lanes::double2(sides().y()[side], sides().y()[after(side)]); }
+    Double2 ends_x(std::uint32_t side) const { return lanes::double2(sides().x(side), sides().x(after(side))); }
+    Double2 ends_y(std::uint32_t side) const { return lanes::double2(sides().y(side), sides().y(after(side))); }
 
 private:
     /// Not positive: clockwise from the first normal, or along it; counter-clockwise from the second.
@@ -96,6 +94,28 @@ private:
 
     const PlacedPolygon* polygon_;
     PolygonSoa sides_;
+};
+
+/// A polygon whose corners have the numbers of its rows.
+class ListedCore : public PolygonCore {
+public:
+    using PolygonCore::PolygonCore;
+
+    std::uint32_t number(std::uint32_t i) const { return i; }
+};
+
+/// A point, for queries with another point.
+class PointCore {
+public:
+    explicit PointCore(const PlacedPolygon& point) : point_(&point) {}
+
+    const LanePose& place() const { return point_->place; }
+    double radius() const { return point_->radius; }
+    std::uint32_t number(std::uint32_t) const { return 0; }
+    Double2 corner(std::uint32_t) const { return Double2{0, 0}; }
+
+private:
+    const PlacedPolygon* point_;
 };
 
 /// A box, a segment or a point.

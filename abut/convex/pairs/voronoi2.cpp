@@ -69,7 +69,7 @@ private:
     Step step_to_edge(std::uint32_t of, std::uint32_t side) {
         const PolygonSoa &reference = *sides_[of], &other = *sides_[1 - of];
         std::uint32_t& k = features_.corners[1 - of];
-        const auto gap = [&] { return dot(reference.normal(side), other_corner(of, k)) - reference.offset()[side]; };
+        const auto gap = [&] { return dot(reference.normal(side), other_corner(of, k)) - reference.offset(side); };
         // A segment has two edges back to back.
         if (gap() < 0 && !(reference.area() > 0)) side = (side + reference.count / 2) % reference.count;
         if (!(gap() > 0)) return Step::failed;
@@ -113,13 +113,15 @@ bool walk_to_closest(const PolygonSoa& a, const PolygonSoa& b, const Rigid2 (&se
 }
 
 /// Inside, the second nearest edge is the right one. Outside, of collinear edges the wrong one may have been found.
-void locate_past_edge(const PolygonSoa& sides, const DVec<2>& point, PointLocation& place) {
-    const std::uint32_t side = place.first, after = sides.after(side);
+PointLocation locate_past_edge(PolygonSoa sides, Double2 local, std::uint32_t side, double gap) {
+    const DVec<2> point = vector_of(local), normal = sides.normal(side);
+    PointLocation place{gap, lanes::double2(normal.x, normal.y), side, sides.after(side)};
+    const std::uint32_t after = place.second;
     const bool before = dot(sides.along(side), point - sides.corner(side)) < 0;
     if (!(place.gap > 0) && sides.count > 2) {
         place.first = before ? sides.before(side) : after;
         place.second = sides.after(place.first);
-        return;
+        return place;
     }
     std::uint32_t corner = before ? side : after;
     VertexRegion to = vertex_region_of(sides, corner, point - sides.corner(corner));
@@ -135,6 +137,7 @@ void locate_past_edge(const PolygonSoa& sides, const DVec<2>& point, PointLocati
         place.gap = away;
         place.normal = lanes::double2(from.x / away, from.y / away);
     }
+    return place;
 }
 
 }  // namespace abut::detail

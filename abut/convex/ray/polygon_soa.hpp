@@ -13,8 +13,8 @@ inline RayEntry<2> enter_polygon_soa(const DRay<2>& ray, const PolygonSoa& sides
     std::uint32_t in = 0;
     double beside = -std::numeric_limits<double>::infinity();
     for (std::uint32_t i = 0; i < sides.count; ++i) {
-        const double x = sides.normal_x()[i], y = sides.normal_y()[i];
-        const double height = (x * ray.origin.x + y * ray.origin.y) - (sides.offset()[i] + radius);
+        const double x = sides.normal_x(i), y = sides.normal_y(i);
+        const double height = (x * ray.origin.x + y * ray.origin.y) - (sides.offset(i) + radius);
         const double descent = -(x * ray.direction.x + y * ray.direction.y);
         // Compared before the division: most edges clip nothing.
         if (descent > 0) {
@@ -32,7 +32,7 @@ inline RayEntry<2> enter_polygon_soa(const DRay<2>& ray, const PolygonSoa& sides
     }
     if (cut.lower > ray.length) return ray_misses<2>();
     const double tolerance =
-        ray_tolerance * (largest(ray.origin) + std::max(std::abs(sides.x()[0]), std::abs(sides.y()[0])) + radius);
+        ray_tolerance * (largest(ray.origin) + std::max(std::abs(sides.x(0)), std::abs(sides.y(0))) + radius);
     if (beside > 0) return beside > tolerance ? ray_misses<2>() : RayEntry<2>();
     RayEntry<2> result;
     result.answer = cut.answer(ray.length, tolerance);

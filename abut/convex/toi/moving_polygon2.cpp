@@ -77,8 +77,8 @@ bool passage_of_any(const PolygonSoa& a, const PolygonSoa& b, const Rigid2 (&pla
     result.of = of_a ? 0 : 1;
     result.side = of_a ? side : side - edges_of_a;
     const PolygonSoa& reference = of_a ? a : b;
-    result.corner = lowest(points[result.of], (of_a ? b : a).capacity(), reference.normal_x()[result.side],
-                           reference.normal_y()[result.side]);
+    result.corner = lowest(points[result.of], (of_a ? b : a).capacity(), reference.normal_x(result.side),
+                           reference.normal_y(result.side));
     return true;
 }
 

@@ -72,6 +72,10 @@ inline Double2 at(const double* numbers) {
     __builtin_memcpy(&result, numbers, sizeof(result));
     return result;
 }
+/// From an address that is a multiple of 16.
+inline const Double2& aligned_at(const double* numbers) {
+    return *reinterpret_cast<const Double2*>(numbers);
+}
 inline void put(Double2 v, double* numbers) {
     __builtin_memcpy(numbers, &v, sizeof(v));
 }

@@ -19,8 +19,18 @@ inline void set_placed_segment(const Vec2& from, const Vec2& to, const Pose2* po
     polygon.set_segment(place.point(middle), place.vector(b - a));
 }
 
-/// Returns false for a shape that is no polygon of few edges.
-inline bool set_placed_polygon(const ShapeRef<2>& given, PlacedPolygon& polygon) {
+/// Returns false for a polygon of many edges.
+inline bool set_placed_polytope(const ShapeRef<2>& given, PlacedPolygon& polygon) {
+    const Polygon& own = given.as<Polygon>();
+    polygon.radius = 0;
+    if (own.sides() == nullptr) return false;
+    polygon.place = lane_pose(pose_or_none(given.pose));
+    polygon.set_rows(own.sides(), own.side_count());
+    return true;
+}
+
+/// Other shapes than polytopes.
+inline bool set_placed_primitive(const ShapeRef<2>& given, PlacedPolygon& polygon) {
     polygon.radius = 0;
     switch (given.kind) {
         case ShapeKind::ball: {
@@ -57,15 +67,16 @@ inline bool set_placed_polygon(const ShapeRef<2>& given, PlacedPolygon& polygon)
             polygon.set_box(lanes::loaded(&box.half.x));
             return true;
         }
-        case ShapeKind::polytope: {
-            const Polygon& own = given.as<Polygon>();
-            if (own.sides() == nullptr) return false;
-            polygon.place = lane_pose(pose_or_none(given.pose));
-            polygon.set_rows(own.sides(), own.side_count());
-            return true;
-        }
+        case ShapeKind::polytope:
+            break;
     }
     return false;
+}
+
+/// Returns false for a shape that is no polygon of few edges.
+[[gnu::always_inline]] inline bool set_placed_polygon(const ShapeRef<2>& given, PlacedPolygon& polygon) {
+    return given.kind == ShapeKind::polytope ? set_placed_polytope(given, polygon)
+                                             : set_placed_primitive(given, polygon);
 }
 
 }  // namespace abut::detail

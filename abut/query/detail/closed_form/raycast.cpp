@@ -70,8 +70,12 @@ bool hit_polygon(const Ray<2>& ray, const ShapeRef<2>& given, std::optional<Hit<
     const Double2 scaled_direction = local_direction * lanes::double2(2 - scales[0]);
     const Double2 scaled_x = lanes::first(scaled_direction), scaled_y = lanes::second(scaled_direction);
     std::uint32_t left = 0;
-    for (std::size_t i = 0; i < sides.count; i += 2)
-        left |= lanes::signs((line + scaled_y * lanes::at(sides.x() + i)) - scaled_x * lanes::at(sides.y() + i)) << i;
+    const double* numbers = sides.at(0);
+    for (std::uint32_t block = 0; block < sides.count; block += soa_lanes, numbers += soa_rows * soa_lanes) {
+        const Double2 *x = &lanes::aligned_at(numbers), *y = &lanes::aligned_at(numbers + soa_lanes);
+        left |= lanes::signs((line + scaled_y * x[0]) - scaled_x * y[0]) << block;
+        left |= lanes::signs((line + scaled_y * x[1]) - scaled_x * y[1]) << (block + 2);
+    }
     const std::uint32_t all = (2u << (sides.count - 1)) - 1;
     left &= all;
     // NaN and infinity are never greater than this.
@@ -79,15 +83,15 @@ bool hit_polygon(const Ray<2>& ray, const ShapeRef<2>& given, std::optional<Hit<
     if (left == 0 || left == all) {
         double nearest = std::numeric_limits<double>::infinity();
         for (std::uint32_t i = 0; i < sides.count; ++i)
-            nearest = std::min(nearest, std::abs(scaled_x[0] * sides.y()[i] - scaled_y[0] * sides.x()[i] - line[0]));
+            nearest = std::min(nearest, std::abs(scaled_x[0] * sides.y(i) - scaled_y[0] * sides.x(i) - line[0]));
         return nearest > 2 * tolerance;
     }
     const std::uint32_t next = left >> 1 | left << (sides.count - 1), side = lanes::lowest_bit(left & ~next);
-    const double x = sides.normal_x()[side], y = sides.normal_y()[side];
-    const double height = (x * origin[0] + y * origin[1]) * scales[0] - sides.offset()[side];
+    const double x = sides.normal_x(side), y = sides.normal_y(side);
+    const double height = (x * origin[0] + y * origin[1]) * scales[0] - sides.offset(side);
     if (!(height > tolerance)) {
         const std::uint32_t last = lanes::lowest_bit(~left & next & all);
-        return dot(sides.normal(last), {origin[0], origin[1]}) * scales[0] - sides.offset()[last] > tolerance;
+        return dot(sides.normal(last), {origin[0], origin[1]}) * scales[0] - sides.offset(last) > tolerance;
     }
     const double sinks = -(x * local_direction[0] + y * local_direction[1]) * (scales[0] * scales[1]);
     if (!(sinks >= 1e-6)) return false;
