@@ -141,13 +141,13 @@ std::uint64_t hash_of_sweeps() {
 class GoldenDirect : public oracle::BySimdTarget {};
 
 TEST_P(GoldenDirect, AnswersInThePlaneHaveTheSameBitsEverywhere) {
-    EXPECT_EQ(hash_of_closed_forms<2>(), 9830103188744959339u);
+    EXPECT_EQ(hash_of_closed_forms<2>(), 6175405033358560184u);
 }
 TEST_P(GoldenDirect, AnswersInSpaceHaveTheSameBitsEverywhere) {
-    EXPECT_EQ(hash_of_closed_forms<3>(), 9024594717162152537u);
+    EXPECT_EQ(hash_of_closed_forms<3>(), 6169418157116279722u);
 }
 TEST_P(GoldenDirect, SweepsInThePlaneHaveTheSameBitsEverywhere) {
-    EXPECT_EQ(hash_of_sweeps(), 4110434063458142389u);
+    EXPECT_EQ(hash_of_sweeps(), 3185737547111105089u);
 }
 
 INSTANTIATE_TEST_SUITE_P(Targets, GoldenDirect, oracle::simd_targets(), oracle::simd_target_name);

@@ -178,10 +178,10 @@ std::uint64_t hash_of_answers() {
 class Golden : public oracle::BySimdTarget {};
 
 TEST_P(Golden, AnswersInThePlaneHaveTheSameBitsEverywhere) {
-    EXPECT_EQ(hash_of_answers<2>(), 13124268286241355784u);
+    EXPECT_EQ(hash_of_answers<2>(), 10472865674312292614u);
 }
 TEST_P(Golden, AnswersInSpaceHaveTheSameBitsEverywhere) {
-    EXPECT_EQ(hash_of_answers<3>(), 16095633304569548483u);
+    EXPECT_EQ(hash_of_answers<3>(), 17006860094429097013u);
 }
 
 INSTANTIATE_TEST_SUITE_P(Targets, Golden, oracle::simd_targets(), oracle::simd_target_name);

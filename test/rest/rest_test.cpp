@@ -48,9 +48,7 @@ Rest expect_rest(const std::string& scene, const RestCase& of, double seconds, d
     EXPECT_LT(rest.speed, 0.02);
     EXPECT_LT(rest.moved, 0.05);
     EXPECT_GT(rest.points, 1);
-    // At a tilt of 0.0014 between two boxes the reference face changes, and with it the features. There one plank comes
-    // to rest on boxes, where floats are that wide.
-    EXPECT_GE(rest.persistent, of.base > 0 && scene == "plank" && of.floor == "boxes" ? 0.9 : 0.99);
+    EXPECT_GE(rest.persistent, 0.99);
     return rest;
 }
 

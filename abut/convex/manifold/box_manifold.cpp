@@ -96,7 +96,7 @@ bool manifold_of_boxes(const PlacedBox& a, const PlacedBox& b, const BoxFrame& f
         writer.add_witness();
         return true;
     }
-    if (alignment_a >= alignment_b - 1e-6) return writer.add_clipped_face(a, frame, closest.normal, 0);
+    if (alignment_a >= aligned) return writer.add_clipped_face(a, frame, closest.normal, 0);
     return writer.add_clipped_face(b, frame.swapped(), {-along_b[0], -along_b[1], -along_b[2]}, 1u << 31);
 }
 

@@ -199,8 +199,8 @@ Manifold<D> manifold(const Convex<D>& a, const Convex<D>& b, const SignedDistanc
     const Face<D> face_a = face_along(a, normal), face_b = face_along(b, -normal);
     const double alignment_a = alignment(face_a, normal), alignment_b = alignment(face_b, -normal);
     if (std::max(alignment_a, alignment_b) >= aligned || side_by_side(face_a, face_b, normal))
-        add_contact_area<D>(a, b, face_a, face_b, alignment_a >= alignment_b - 1e-6, {normal, depth, margin, tolerance},
-                            trace, candidates);
+        add_contact_area<D>(a, b, face_a, face_b, alignment_a >= aligned || alignment_b < aligned,
+                            {normal, depth, margin, tolerance}, trace, candidates);
     add_deepest(candidates, {distance.on_a - normal * (0.5 * depth), depth, witness_name}, tolerance);
     return reduced_manifold(candidates, normal, tolerance);
 }
@@ -212,10 +212,7 @@ ContactArea<D> contact_area(const Convex<D>& a, const Convex<D>& b, ReferenceFac
     const Face<D> face_a = face_along(a, normal), face_b = face_along(b, -normal);
     const double alignment_a = alignment(face_a, normal), alignment_b = alignment(face_b, -normal);
     if (std::max(alignment_a, alignment_b) < aligned && !side_by_side(face_a, face_b, normal)) return area;
-    const bool is_best = alignment_a >= alignment_b - 1e-6;
-    area.a_is_reference = reference == ReferenceFace::of_a   ? alignment_a >= aligned || is_best
-                          : reference == ReferenceFace::of_b ? alignment_b < aligned && is_best
-                                                             : is_best;
+    area.a_is_reference = alignment_b < aligned || (reference == ReferenceFace::of_a && alignment_a >= aligned);
     const double tolerance = 1e-6 * std::min(approximate_size(a), approximate_size(b));
     add_contact_area<D>(a, b, face_a, face_b, area.a_is_reference, {normal, depth, margin, tolerance}, nullptr,
                         area.points);

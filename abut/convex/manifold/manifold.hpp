@@ -38,6 +38,9 @@ Manifold<D> reduced_manifold(const ManifoldCandidates<D>& all, const DVec<D>& no
 
 /// For two sets whose distance is at most `margin`. The points have gaps of at most `margin`, and the deepest is among
 /// them; surplus points are reduced to those that span the largest area.
+///
+/// A's face is the reference if it is aligned with the normal, even where B's is aligned better. Both faces are clipped
+/// along the normal, so either choice gives the same points, but their features depend on it.
 template <int D>
 Manifold<D> manifold(const Convex<D>& a, const Convex<D>& b, const SignedDistance<D>& distance, double margin,
                      Trace<D>* trace = nullptr);
@@ -50,7 +53,7 @@ struct ContactArea {
 };
 
 /// The set to whose face the other one's is clipped, if that has a face along the normal.
-enum class ReferenceFace : std::uint8_t { of_a, of_b, best_aligned };
+enum class ReferenceFace : std::uint8_t { of_a, of_b };
 
 /// The contact area along a normal from A to B: the incident face clipped by the side planes of the reference face. No
 /// point is deeper than `depth`. The area is empty unless one of the sets has a face along the normal, or both have an

@@ -20,9 +20,6 @@ struct ContactRange {
     double depth, margin, tolerance;
 };
 
-/// Of two edges whose alignments differ by less, A's is the reference.
-inline constexpr double near_parallel = 1e-6;
-
 /// Clips the facing edge of `incident` at both ends of that of `reference`, and finds the points that are near enough.
 /// It has no branches, as clipping is unpredictable. `out` is the contact normal out of the reference, in its frame,
 /// and `per_slope` the inverse of its part along the edge's normal.
@@ -93,7 +90,7 @@ template <class Core>
     const FacingEdge of_a = a.facing(closest.corners[0][0], out_of_a), of_b = b.facing(closest.corners[1][0], out_of_b);
     points.mask = 0;
     if (!(std::max(of_a.alignment, of_b.alignment) >= aligned)) return;
-    if (of_a.alignment >= of_b.alignment - near_parallel)
+    if (of_a.alignment >= aligned)
         clip_edges(a, b, pair.seen_from(0), of_a.side, of_b.side, out_of_a,
                    1 / lanes::dot(a.normal(of_a.side), out_of_a)[0], range, points);
     else
@@ -113,7 +110,7 @@ template <class Core>
     const Double2 normal = reference.normal(side);
     const FacingEdge facing = incident.facing(closest.corners[1 - of][0], -pair.seen_from(1 - of).vector(normal));
     const bool is_edge = closest.corners[of][1] != side && reference.is_proper(side);
-    if (is_edge && (of == 0 || facing.alignment < 1 - near_parallel))
+    if (is_edge && (of == 0 || facing.alignment < aligned))
         clip_edges(reference, incident, pair.seen_from(of), side, facing.side, normal, 1, range, points);
     else
         clip_facing_edges(pair, closest, range, points);

@@ -114,6 +114,58 @@ TEST(Contact, KeepsTheNamesOfItsPointsWhileTheSameCornersMeet) {
     EXPECT_EQ(names, later_names);
 }
 
+/// The contact of two shapes in both orders keeps the names of its points over the tilts, and both orders have the same
+/// points to within the tolerance.
+template <int D, class Shape>
+void expect_constant_names(const Shape& lower, const Shape& upper) {
+    std::set<std::uint32_t> first, first_swapped;
+    for (int i = 0; i <= 60; ++i) {
+        const double tilt = 5e-4 * i;
+        SCOPED_TRACE(tilt);
+        Pose<D> pose;
+        if constexpr (D == 2)
+            pose.rotation = {static_cast<float>(std::cos(tilt)), static_cast<float>(std::sin(tilt))};
+        else
+            pose.rotation =
+                glm::normalize(glm::quat(1, 0.15f * static_cast<float>(tilt), 0, 0.5f * static_cast<float>(tilt)));
+        const Contact<D> now = contact(lower, at(upper, pose), {.margin = 0.25f});
+        const Contact<D> swapped = contact(at(upper, pose), lower, {.margin = 0.25f});
+        const auto names = [](const Contact<D>& contact) {
+            std::set<std::uint32_t> result;
+            for (const ContactPoint<D>& point : contact.points) result.insert(point.feature);
+            return result;
+        };
+        ASSERT_EQ(now.points.size(), D == 2 ? 2u : 4u);
+        ASSERT_EQ(swapped.points.size(), now.points.size());
+        if (i == 0) {
+            first = names(now);
+            first_swapped = names(swapped);
+        }
+        EXPECT_EQ(names(now), first);
+        EXPECT_EQ(names(swapped), first_swapped);
+        for (const ContactPoint<D>& point : now.points)
+            EXPECT_TRUE(std::any_of(swapped.points.begin(), swapped.points.end(), [&](const ContactPoint<D>& other) {
+                return length(DVec<D>(point.position - other.position)) < 1e-5 &&
+                       std::abs(point.depth - other.depth) < 1e-5f;
+            }));
+    }
+}
+
+// A plank on boxes lost 5 % of its names a step: at a tilt of 0.0014 the better aligned face became the reference.
+TEST(Contact, KeepsTheNamesOfItsPointsWhileAShapeTilts) {
+    const Box3 lower3{{0, 0, 0}, {2, 1, 2}}, upper3{{0.5f, 1.875f, 0}, {1, 1, 1}};
+    const Box2 lower2{{0, 0}, {2, 1}}, upper2{{0.5f, 1.875f}, {1, 1}};
+    const auto polyhedron = [](const Box3& box) {
+        std::vector<Vec3> corners;
+        for (int i = 0; i < 8; ++i)
+            corners.push_back(box.center + box.half * Vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1));
+        return *Polyhedron::build(corners);
+    };
+    expect_constant_names<3>(lower3, upper3);
+    expect_constant_names<3>(polyhedron(lower3), polyhedron(upper3));
+    expect_constant_names<2>(lower2, upper2);
+}
+
 TEST(Contact, WithAMarginReportsNearMisses) {
     const Box3 lower{{0, 0, 0}, {1, 1, 1}}, upper{{0, 2.125f, 0}, {1, 1, 1}};
     EXPECT_FALSE(contact(lower, upper));

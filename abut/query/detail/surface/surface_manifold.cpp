@@ -249,9 +249,7 @@ ManifoldCandidates<D> SurfaceManifold<D>::area(const Part<D>& part_a, const Part
                                                std::uint32_t index_b) const {
     ManifoldCandidates<D> result;
     if (!are_convex<D>(part_a, part_b)) return result;
-    const ReferenceFace reference = names_ == ManifoldNames::level_is_a   ? ReferenceFace::of_a
-                                    : names_ == ManifoldNames::level_is_b ? ReferenceFace::of_b
-                                                                          : ReferenceFace::best_aligned;
+    const ReferenceFace reference = names_ == ManifoldNames::level_is_b ? ReferenceFace::of_b : ReferenceFace::of_a;
     const ContactArea<D> all = contact_area(part_a.convex(), part_b.convex(), reference, plane_.normal,
                                             std::numeric_limits<double>::infinity(), margin_);
     for (ManifoldPoint<D> point : std::span(all.points.points).first(all.points.count)) {
