@@ -32,8 +32,8 @@ void World<D>::add_if_near(std::uint32_t slot, std::uint32_t other) {
     if (a.type == detail::ShapeType::half_space && b.type == detail::ShapeType::half_space) return;
     near_.push_back({id_of(std::min(slot, other)), id_of(std::max(slot, other))});
     if (!filters_edges_) return;
-    ++edges_->list_of_slot[slot];
-    ++edges_->list_of_slot[other];
+    edges_->list_of_slot[slot] += a.fixed ? 0 : 1;
+    edges_->list_of_slot[other] += b.fixed ? 0 : 1;
 }
 
 /// Tests a near pair. If neither item changed, the last result is repeated.

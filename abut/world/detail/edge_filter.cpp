@@ -20,7 +20,7 @@ constexpr std::size_t max_listed_neighbours = 96;
 
 /// The filter looks for neighbours around a point at most this far away, in units of s by the radii of the bounding
 /// balls: 2.1 s, and s may be sqrt(3) times as large (see detail::size).
-constexpr double probe_reach = 4;
+constexpr float probe_reach = 4;
 
 }  // namespace
 
@@ -46,29 +46,16 @@ void World<D>::reserve_edge_filter() {
     if (filters_edges_) edges_->reserve(items_.size(), near_.capacity(), found_.capacity());
 }
 
-/// Finds the neighbours of the items of all pairs whose contact may be new: one of the two, or an item near one of
-/// them, was added, removed or moved.
+/// Lists the partners of the items whose contacts are filtered, among which needs_filter() finds their neighbours.
 template <int D>
 void World<D>::find_neighbours() {
     if (!filters_edges_) return;
-    EdgeFilterState<D>& state = *edges_;
-    const auto has_few = [&](const IdPair& pair) {
-        return state.list_of_slot[pair.a.index - 1] < 2 && state.list_of_slot[pair.b.index - 1] < 2;
-    };
     for (const IdPair& pair : near_) {
-        const std::uint32_t a = pair.a.index - 1, b = pair.b.index - 1;
-        if (has_few(pair)) continue;
-        if (!items_[a].pending && !items_[b].pending && !neighbours_changed(pair)) continue;
-        if (filters_edges(a)) state.add_list(a);
-        if (filters_edges(b)) state.add_list(b);
+        edges_->add_partner(pair.a.index - 1, pair.b.index - 1);
+        edges_->add_partner(pair.b.index - 1, pair.a.index - 1);
     }
-    state.begin_neighbours();
-    for (const IdPair& pair : near_) {
-        const std::uint32_t a = pair.a.index - 1, b = pair.b.index - 1;
-        if (has_few(pair) || !are_solid(a, b) || (widened_ && !overlaps(box(a), box(b)))) continue;
-        state.add_neighbour(a, b, box(b));
-        state.add_neighbour(b, a, box(a));
-    }
+    // References to its elements stay valid during the update.
+    edges_->nearest_to_center.reserve(edges_->lists.size());
 }
 
 /// Marks the items near which another one has changed.
@@ -111,8 +98,9 @@ void World<D>::each_closest_point_beside(std::uint32_t slot, std::uint32_t other
         each_closest_point_on<D>(edges_->views.of(item, [&] { return placed(items_[item]); }), point, within, narrow);
         return within > stop_visiting;
     };
-    if (edges_->list_of(slot)->size <= max_listed_neighbours) {
-        edges_->each_neighbour(slot, near, [&](std::uint32_t neighbour) {
+    const auto& list = *edges_->list_of(slot);
+    if (list.size <= max_listed_neighbours) {
+        edges_->each_neighbour(list, near, [&](std::uint32_t neighbour) {
             return neighbour == other || !overlaps_branchless(box(neighbour), near) || visit_item(neighbour);
         });
         return;
@@ -138,7 +126,7 @@ bool World<D>::is_center_covered(std::uint32_t slot) {
     auto& list = *edges_->list_of(slot);
     if (std::exchange(list.is_center_tested, true)) return list.is_center_covered;
     const Vec<D> middle = center(box(slot));
-    if (!edges_->each_neighbour(slot, {middle, middle}, [](std::uint32_t) { return false; }))
+    if (!edges_->each_neighbour(list, {middle, middle}, [](std::uint32_t) { return false; }))
         each_closest_point_beside(slot, slot, DVec<D>(middle), 0, [&](const ClosestPoint<D>& closest) {
             list.is_center_covered = closest.distance < 0;
             return list.is_center_covered ? stop_visiting : 0.0;
@@ -150,16 +138,21 @@ bool World<D>::is_center_covered(std::uint32_t slot) {
 /// touches there. `side` is 1 if the item is A, and -1 if it is B.
 template <int D>
 bool World<D>::is_alone(const Contact<D>& contact, std::uint32_t slot, std::uint32_t other, double side) const {
-    const double radius =
-        static_cast<double>(std::min(items_[slot].local_ball.radius, items_[other].local_ball.radius));
-    const double scale = surface_probe_scale * radius;
-    const double min_depth = static_cast<double>(contact.depth) - 0.5 * deepest_tolerance * scale;
+    constexpr auto scale = static_cast<float>(surface_probe_scale), rounding = 0x1p-21f;
+    const float s = scale * std::min(items_[slot].local_ball.radius, items_[other].local_ball.radius);
+    const float min_depth = contact.depth - static_cast<float>(0.5 * deepest_tolerance) * s;
+    const auto to_surface = static_cast<float>(-0.5 * side);
+    const auto& list = *edges_->list_of(slot);
     return std::any_of(contact.points.begin(), contact.points.end(), [&](const ContactPoint<D>& point) {
-        const double depth = static_cast<double>(point.depth);
-        if (depth < min_depth) return false;
-        const DVec<D> on_surface = DVec<D>(point.position) - DVec<D>(contact.normal) * (0.5 * side * depth);
-        const Aabb<D> near = box_around(on_surface, probe_reach * scale);
-        return edges_->each_neighbour(slot, near, [&](std::uint32_t neighbour) { return neighbour == other; });
+        if (point.depth < min_depth) return false;
+        Aabb<D> near;
+        for (int i = 0; i < D; ++i) {
+            const float on_surface = point.position[i] + contact.normal[i] * (to_surface * point.depth);
+            const float reach = probe_reach * s + rounding * (std::abs(point.position[i]) + std::abs(point.depth));
+            near.min[i] = on_surface - reach;
+            near.max[i] = on_surface + reach;
+        }
+        return edges_->each_neighbour(list, near, [&](std::uint32_t neighbour) { return neighbour == other; });
     });
 }
 
@@ -167,9 +160,13 @@ bool World<D>::is_alone(const Contact<D>& contact, std::uint32_t slot, std::uint
 /// contact of items without parts are known.
 template <int D>
 bool World<D>::needs_filter(std::uint32_t slot, std::uint32_t other, const Contact<D>* contact, double side) {
-    if (!filters_edges(slot)) return false;
-    const auto* const list = edges_->list_of(slot);
-    if (list == nullptr || list->size < 2 || list->is_center_covered) return false;
+    auto* const list = filters_edges_ ? edges_->list_of(slot) : nullptr;
+    if (list == nullptr) return false;
+    const auto box_of_neighbour = [&](std::uint32_t partner) {
+        const Aabb<D>& found = box(partner);
+        return are_solid(slot, partner) && (!widened_ || overlaps(box(slot), found)) ? &found : nullptr;
+    };
+    if (edges_->find_neighbours(*list, box_of_neighbour) < 2 || list->is_center_covered) return false;
     return (contact == nullptr || !is_alone(*contact, slot, other, side)) && !is_center_covered(slot);
 }
 
@@ -259,30 +256,28 @@ bool World<D>::is_covered(const FoundContact& ghost, const Id& item) const {
     const WorldContact<D>& result = ghost.result;
     const std::uint32_t slot = item.index - 1;
     if (!filters_edges(slot)) return false;
-    const auto others = edges_->found_by_slot.of(slot);
-    return std::any_of(others.begin(), others.end(), [&](std::uint32_t place) {
-        const FoundContact& other = found_[place];
-        return other.reported && &other != &ghost &&
-               covers_contact<D>(normal_from_item(other.result), static_cast<double>(other.result.contact.depth),
-                                 normal_from_item(result), static_cast<double>(result.contact.depth),
-                                 static_cast<double>(ghost.size));
-    });
+    for (std::uint32_t link = edges_->last_found[slot]; link != edges_->none; link = edges_->found_before[link]) {
+        const FoundContact& other = found_[link / 2];
+        if (other.reported && &other != &ghost &&
+            covers_contact<D>(normal_from_item(other.result), static_cast<double>(other.result.contact.depth),
+                              normal_from_item(result), static_cast<double>(result.contact.depth),
+                              static_cast<double>(ghost.size)))
+            return true;
+    }
+    return false;
 }
 
-/// Finds the contacts of the items that have ghosts.
+/// Links the contacts of each item.
 template <int D>
 void World<D>::find_contacts_beside_ghosts() {
-    std::vector<char>& has_ghost = edges_->has_ghost;
-    has_ghost.assign(items_.size(), false);
-    for (const FoundContact& found : found_) {
-        if (!found.surface_normal.a) has_ghost[found.result.a.index - 1] = true;
-        if (!found.surface_normal.b) has_ghost[found.result.b.index - 1] = true;
-    }
-    edges_->found_by_slot.build(items_.size(), [&](auto&& add) {
-        for (std::uint32_t place = 0; place < found_.size(); ++place)
-            for (const Id& id : {found_[place].result.a, found_[place].result.b})
-                if (has_ghost[id.index - 1]) add(id.index - 1, [place] { return place; });
-    });
+    std::vector<std::uint32_t>& last = edges_->last_found;
+    last.assign(items_.size(), edges_->none);
+    edges_->found_before.clear();
+    for (const FoundContact& found : found_)
+        for (const Id& id : {found.result.a, found.result.b}) {
+            edges_->found_before.push_back(last[id.index - 1]);
+            last[id.index - 1] = static_cast<std::uint32_t>(edges_->found_before.size() - 1);
+        }
 }
 
 /// Reports the contacts with surface normals, and then, by id, the ghosts. A ghost that a reported contact covers is
