@@ -1,6 +1,5 @@
 #include <abut/convex/gjk/gjk.hpp>
 #include <abut/query/closest.hpp>
-#include <abut/query/detail/closed_form/closed_form.hpp>
 #include <abut/query/detail/part_pairs.hpp>
 #include <abut/query/detail/solid/solid_queries.hpp>
 #include <abut/query/detail/valid_query.hpp>
@@ -136,34 +135,15 @@ private:
     Closest<D> found_;  ///< only its features are used
 };
 
-template <int D>
-void answer(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>& options, Closest<D>& result) {
-    if (!detail::is_valid_pair(a, b)) return;
-    const SignedDistance<D> distance = part_distance(a, b, {options.cache, options.trace});
-    write(distance, result);
-    name_features(a, b, distance, 0, 0, result);
-}
-
-/// Out of line, to keep the fast path small.
-template <int D>
-[[gnu::noinline]] void by_views(const ShapeRef<D>& a, const ShapeRef<D>& b, const QueryOptions<D>& options,
-                                Closest<D>& result) {
-    answer(convex_of(a), convex_of(b), options, result);
-}
-
 }  // namespace
 
 template <int D>
 Closest<D> closest(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>& options) {
     Closest<D> result;
-    answer(a, b, options, result);
-    return result;
-}
-
-template <int D>
-Closest<D> closest(const ShapeRef<D>& a, const ShapeRef<D>& b, const QueryOptions<D>& options) {
-    Closest<D> result;
-    if (options.trace != nullptr || !closed_form_closest(a, b, options.cache, result)) by_views(a, b, options, result);
+    if (!detail::is_valid_pair(a, b)) return result;
+    const SignedDistance<D> distance = part_distance(a, b, {options.cache, options.trace});
+    write(distance, result);
+    name_features(a, b, distance, 0, 0, result);
     return result;
 }
 
@@ -199,6 +179,5 @@ template Closest<2> closest(const View<2>&, const View<2>&, const QueryOptions<2
 template Closest<3> closest(const View<3>&, const View<3>&, const QueryOptions<3>&);
 template Closest<2> closest(const Convex<2>&, const Convex<2>&, const QueryOptions<2>&);
 template Closest<3> closest(const Convex<3>&, const Convex<3>&, const QueryOptions<3>&);
-template Closest<3> closest(const ShapeRef<3>&, const ShapeRef<3>&, const QueryOptions<3>&);
 
 }  // namespace abut

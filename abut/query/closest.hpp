@@ -39,6 +39,8 @@ template <int D>
 Closest<D> closest(const detail::ShapeRef<D>& a, const detail::ShapeRef<D>& b, const QueryOptions<D>& options = {});
 template <>
 Closest<2> closest(const detail::ShapeRef<2>& a, const detail::ShapeRef<2>& b, const QueryOptions<2>& options);
+template <>
+Closest<3> closest(const detail::ShapeRef<3>& a, const detail::ShapeRef<3>& b, const QueryOptions<3>& options);
 
 /// The signed distance of two shapes, with the closest points and the direction between them. The error is at most 1e-5
 /// x the size of the smaller shape. The depth of two solids, as `solid(mesh)` makes them, is a move that parts them,

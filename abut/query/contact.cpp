@@ -2,7 +2,6 @@
 // apart have contact points too, with a negative depth.
 
 #include <abut/query/contact.hpp>
-#include <abut/query/detail/closed_form/closed_form.hpp>
 #include <abut/query/detail/one_sided.hpp>
 #include <abut/query/detail/part_pairs.hpp>
 #include <abut/query/detail/solid/solid_queries.hpp>
@@ -18,13 +17,6 @@ namespace abut {
 using namespace detail;
 
 namespace {
-
-template <int D>
-Contact<D> no_contact() {
-    Contact<D> result;
-    result.normal[0] = 1;
-    return result;
-}
 
 template <int D>
 bool has_parts(const View<D>& a, const View<D>& b) {
@@ -53,15 +45,6 @@ bool answer(const PartType& a, const PartType& b, const QueryOptions<D>& options
     return true;
 }
 
-/// Out of line, to keep the fast path small.
-template <int D>
-[[gnu::noinline]] void by_views(const ShapeRef<D>& a, const ShapeRef<D>& b, const QueryOptions<D>& options,
-                                Contact<D>& result) {
-    const Convex<D> convex_a = convex_of(a), convex_b = convex_of(b);
-    PartContact<D> found;
-    if (detail::is_valid_pair(convex_a, convex_b)) answer(convex_a, convex_b, options, found, result);
-}
-
 }  // namespace
 
 template <int D>
@@ -69,15 +52,6 @@ Contact<D> contact(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>
     Contact<D> result = no_contact<D>();
     PartContact<D> found;
     if (detail::is_valid_pair(a, b)) answer(a, b, options, found, result);
-    return result;
-}
-
-template <int D>
-Contact<D> contact(const ShapeRef<D>& a, const ShapeRef<D>& b, const QueryOptions<D>& options) {
-    Contact<D> result = no_contact<D>();
-    if (options.trace != nullptr ||
-        !closed_form_contact(a, b, static_cast<double>(options.margin), options.cache, result))
-        by_views(a, b, options, result);
     return result;
 }
 
@@ -147,6 +121,5 @@ template Contact<2> contact(const View<2>&, const View<2>&, const QueryOptions<2
 template Contact<3> contact(const View<3>&, const View<3>&, const QueryOptions<3>&);
 template Contact<2> contact(const Convex<2>&, const Convex<2>&, const QueryOptions<2>&);
 template Contact<3> contact(const Convex<3>&, const Convex<3>&, const QueryOptions<3>&);
-template Contact<3> contact(const ShapeRef<3>&, const ShapeRef<3>&, const QueryOptions<3>&);
 
 }  // namespace abut

@@ -65,6 +65,8 @@ template <int D>
 Contact<D> contact(const detail::ShapeRef<D>& a, const detail::ShapeRef<D>& b, const QueryOptions<D>& options = {});
 template <>
 Contact<2> contact(const detail::ShapeRef<2>& a, const detail::ShapeRef<2>& b, const QueryOptions<2>& options);
+template <>
+Contact<3> contact(const detail::ShapeRef<3>& a, const detail::ShapeRef<3>& b, const QueryOptions<3>& options);
 
 /// The contact of two touching or overlapping shapes. Composite shapes return the deepest contact of each_contact: that
 /// of the plane of their deepest pair of parts, unless that pair touches on an internal edge. Two meshes always return

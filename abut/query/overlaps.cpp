@@ -29,8 +29,8 @@ bool overlaps(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>& opt
     return detail::is_valid_pair(a, b) && part_overlaps(a, b, SearchOptions<D>{options.cache, options.trace});
 }
 
-template <int D>
-bool overlaps(const ShapeRef<D>& a, const ShapeRef<D>& b, const QueryOptions<D>& options) {
+template <>
+bool overlaps(const ShapeRef<2>& a, const ShapeRef<2>& b, const QueryOptions<2>& options) {
     if (options.trace == nullptr) {
         const PairAnswer answer = closed_form_overlap(a, b, options.cache);
         if (answer != PairAnswer::unknown) return answer == PairAnswer::yes;
@@ -54,10 +54,9 @@ bool contains(const View<D>& shape, const Vec<D>& point) {
     return any_parts_overlap<D>(shape, View<D>(round_points<D>({point}, 0)), {});
 }
 
-#define ABUT_INSTANTIATE(D)                                                                 \
-    template bool overlaps(const View<D>&, const View<D>&, const QueryOptions<D>&);         \
-    template bool overlaps(const Convex<D>&, const Convex<D>&, const QueryOptions<D>&);     \
-    template bool overlaps(const ShapeRef<D>&, const ShapeRef<D>&, const QueryOptions<D>&); \
+#define ABUT_INSTANTIATE(D)                                                             \
+    template bool overlaps(const View<D>&, const View<D>&, const QueryOptions<D>&);     \
+    template bool overlaps(const Convex<D>&, const Convex<D>&, const QueryOptions<D>&); \
     template bool contains(const View<D>&, const Vec<D>&);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)

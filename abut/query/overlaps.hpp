@@ -13,6 +13,10 @@ template <int D>
 bool overlaps(const detail::Convex<D>& a, const detail::Convex<D>& b, const QueryOptions<D>& options = {});
 template <int D>
 bool overlaps(const detail::ShapeRef<D>& a, const detail::ShapeRef<D>& b, const QueryOptions<D>& options = {});
+template <>
+bool overlaps(const detail::ShapeRef<2>& a, const detail::ShapeRef<2>& b, const QueryOptions<2>& options);
+template <>
+bool overlaps(const detail::ShapeRef<3>& a, const detail::ShapeRef<3>& b, const QueryOptions<3>& options);
 
 /// True if the shapes overlap or touch. This is cheaper than `closest`: it stops at the first separating axis.
 template <class A, class B>

@@ -6,13 +6,11 @@
 #include <abut/convex/pairs/box_closest.hpp>
 
 namespace abut::detail {
-namespace {
 
-/// Warm start: whether the cached axis still separates the boxes by more than `reach`. An unset axis separates nothing.
-bool still_separated(const PlacedBox& a, const PlacedBox& b, double reach, const Cache* cache) {
+bool still_separated(const PlacedBox& a, const PlacedBox& b, double reach, const Cache& cache) {
     using namespace lanes;
-    if (cache == nullptr || reach < 0) return false;
-    const Double3 axis{loaded(cache->axis.data()), loaded_twice(cache->axis[2])};
+    if (reach < 0) return false;
+    const Double3 axis{loaded(cache.axis.data()), loaded_twice(cache.axis[2])};
     const double apart = dot(axis, b.center - a.center)[0];
     const double covered =
         (dot(magnitude(a.axes.transposed(axis)), a.half) + dot(magnitude(b.axes.transposed(axis)), b.half))[0];
@@ -21,6 +19,8 @@ bool still_separated(const PlacedBox& a, const PlacedBox& b, double reach, const
     return apart - covered > reach + tolerance && apart <= std::numeric_limits<double>::max() &&
            dot(axis, axis)[0] < 1 + 1e-6;
 }
+
+namespace {
 
 void store_axis(const lanes::Double3& axis, Cache* cache) {
     lanes::store(axis.xy, cache->axis.data());
@@ -189,14 +189,9 @@ void store(const CoresDistance& found, Cache& cache) {
 
 }  // namespace
 
-PairAnswer boxes_overlap(const PlacedBox& a, const PlacedBox& b, Cache* cache) {
+PairAnswer boxes_overlap(const PlacedBox& a, const PlacedBox& b, const BoxFaceGaps& gaps, Cache* cache) {
     const double reach = a.radius[0] + b.radius[0];
-    if (still_separated(a, b, reach, cache)) return PairAnswer::no;
-    const BoxFaceGaps gaps(a, b);
-    if (!gaps.finite()) return PairAnswer::unknown;
-    if (cache == nullptr && gaps.of_a_wider_than(reach)) return PairAnswer::no;
     const BoxFaceGap face = gaps.widest();
-    if (cache == nullptr && face.gap > reach) return PairAnswer::no;
     const BoxFrame frame = gaps.frame();
     if (face.gap > reach) {
         store_axis(a, face_normal(frame, face.number), cache);
@@ -229,7 +224,7 @@ bool distance_of_boxes(const PlacedBox& a, const PlacedBox& b, Cache* cache, Cor
 
 PairAnswer contact_of_boxes(const PlacedBox& a, const PlacedBox& b, double reach, double margin, Cache* cache,
                             CoresDistance& found, Manifold<3>& points) {
-    if (still_separated(a, b, reach, cache)) return PairAnswer::no;
+    if (cache != nullptr && still_separated(a, b, reach, *cache)) return PairAnswer::no;
     const BoxFaceGaps gaps(a, b);
     if (!gaps.finite()) return PairAnswer::unknown;
     const BoxFaceGap face = gaps.widest();

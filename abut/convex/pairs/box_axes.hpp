@@ -35,22 +35,13 @@ public:
 
     /// The gaps of A depend on all numbers of both boxes.
     bool finite() const { return lanes::finite(of_a_.xy + of_a_.z); }
-    bool of_a_wider_than(double reach) const {
-        return lanes::bits(lanes::greater(of_a_.xy, of_a_.z) > lanes::double2(reach)) != 0;
-    }
+    bool any_wider_than(double reach) const { return is_wider(of_a_, reach) || is_wider(of_b(), reach); }
 
     BoxFaceGap widest() const {
         using namespace lanes;
-        Double2 apart[3], reach_b[3];
-        for (std::size_t i = 0; i < 3; ++i) {
-            apart[i] = magnitude(dot(axis_b_[i], middle_));
-            reach_b[i] = dot(sizes_[i], half_a_);
-        }
         std::array<double, 6> gaps;
-        put(of_a_.xy, &gaps[0]);
-        gaps[2] = of_a_.z[0];
-        put(lower(apart[0], apart[1]) - (half_b_.xy + lower(reach_b[0], reach_b[1])), &gaps[3]);
-        gaps[5] = (apart[2] - (half_b_.z + reach_b[2]))[0];
+        put(of_a_, &gaps[0]);
+        put(of_b(), &gaps[3]);
         const auto wider = [&](std::size_t i, std::size_t j) { return gaps[j] > gaps[i] ? j : i; };
         const std::size_t best = wider(wider(wider(0, 1), 2), wider(wider(3, 4), 5));
         return {gaps[best], best};
@@ -67,6 +58,16 @@ public:
     }
 
 private:
+    static bool is_wider(const lanes::Double3& gaps, double reach) {
+        return lanes::bits(lanes::greater(gaps.xy, gaps.z) > lanes::double2(reach)) != 0;
+    }
+    lanes::Double3 of_b() const {
+        using namespace lanes;
+        Double2 gap[3];
+        for (std::size_t i = 0; i < 3; ++i) gap[i] = magnitude(dot(axis_b_[i], middle_)) - dot(sizes_[i], half_a_);
+        return Double3{lower(gap[0], gap[1]), gap[2]} - half_b_;
+    }
+
     lanes::Double3 half_a_, half_b_, axis_b_[3], middle_;  ///< as in a BoxFrame
     lanes::Double3 sizes_[3], of_a_;
 };

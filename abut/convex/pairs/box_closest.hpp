@@ -45,6 +45,7 @@ inline void set_world_distance(const PlacedBox& box, const BoxClosest& closest, 
     found.distance = distance;
     found.normal = box.axes.vector(n) * double2(by_b ? -1 : 1);
     found.on_a = box.center + box.axes.vector(by_b ? p + n * distance : p);
+    found.on_b = found.on_a + found.normal * distance;
     found.part_a = by_b ? closest.part_b : closest.part_a;
     found.part_b = by_b ? closest.part_a : closest.part_b;
 }

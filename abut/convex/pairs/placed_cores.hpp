@@ -41,27 +41,26 @@ struct CoreFeature {
     std::uint32_t low = 0, free = 0;
 };
 
-/// The end or the edge at a parameter from 0 to 1, by masks: compilers turn conditions into branches, which can't be
-/// predicted.
-inline CoreFeature segment_feature(lanes::Double2 part) {
-    const std::uint32_t started = lanes::bits(part > lanes::Double2{0, 0}) & 1u;
-    const std::uint32_t ended = lanes::bits(part >= lanes::Double2{1, 1}) & 1u;
-    return {ended, started ^ ended};
-}
-
 /// The signed distance of two cores with their balls, and the features at the closest points.
 struct CoresDistance {
     lanes::Double2 distance;
-    lanes::Double3 normal, on_a;  ///< as in a SignedDistance
+    lanes::Double3 normal, on_a, on_b;  ///< as in a SignedDistance
     CoreFeature part_a, part_b;
-
-    lanes::Double3 on_b() const { return on_a + normal * distance; }
 };
+
+/// Sets the ends or edges of two segments at their parameters from 0 to 1, by masks: compilers turn conditions into
+/// branches, which can't be predicted.
+inline void set_segment_features(lanes::Double2 parts, CoresDistance& found) {
+    const std::uint32_t started = lanes::bits(parts > lanes::Double2{0, 0});
+    const std::uint32_t ended = lanes::bits(parts >= lanes::Double2{1, 1}), between = started ^ ended;
+    found.part_a = {ended & 1u, between & 1u};
+    found.part_b = {ended >> 1, between >> 1};
+}
 
 /// Turns the answer for a pair (A, B) into that for (B, A).
 inline void flip(CoresDistance& found) {
-    found.on_a = found.on_b();
     found.normal = found.normal * lanes::double2(-1);
+    std::swap(found.on_a, found.on_b);
     std::swap(found.part_a, found.part_b);
 }
 
@@ -69,6 +68,7 @@ inline void flip(CoresDistance& found) {
 inline void add_balls(lanes::Double2 radius_a, lanes::Double2 radius_b, CoresDistance& found) {
     found.distance = found.distance - radius_a - radius_b;
     found.on_a = found.on_a + found.normal * radius_a;
+    found.on_b = found.on_b - found.normal * radius_b;
 }
 
 /// The corners that span a feature, by number; three of a face. If there are fewer than three, the last is repeated.

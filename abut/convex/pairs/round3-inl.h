@@ -13,6 +13,7 @@ inline bool distance_of(const PlacedBall& a, const PlacedBall& b, CoresDistance&
     found.distance = gap;
     found.normal = gap[0] > 0 ? between * (1 / gap) : Double3{double2(1, 0), double2(0)};
     found.on_a = a.center;
+    found.on_b = b.center;
     found.part_a = found.part_b = {};
     add_balls(a.radius, b.radius, found);
     return true;
@@ -59,6 +60,7 @@ inline void nearest_from_inside(const DVec<3>& half, const DVec<3>& point, BoxCl
     found.distance = place.distance;
     found.normal = offset * place.per_length;
     found.on_a = ball.center - (outside ? offset : offset * place.distance);
+    found.on_b = ball.center;
     found.part_a = place.part;
     found.part_b = {};
     add_balls(box.radius, ball.radius, found);
@@ -103,7 +105,7 @@ inline bool distance_of(const PlacedBox& box, const PlacedBall& ball, CoresDista
     // the closest points along the segments by at most 1e-9 of their distance.
     constexpr double parallel = 1e-6, near = 1e-10, max_square = 1e200;
 
-    const Double3 along_a = a.to - a.from, along_b = b.to - b.from, between_ends = a.from - b.from;
+    const Double3 along_a = a.to - a.from, along_b = b.to - b.from, between_ends = b.from - a.from;
     const Double2 square_a = dot(along_a, along_a), square_b = dot(along_b, along_b), crossed = dot(along_a, along_b);
     const Double2 rise_a = dot(along_a, between_ends), rise_b = dot(along_b, between_ends);
     const Double2 squares = square_a * square_b, whole = squares - crossed * crossed;
@@ -113,22 +115,21 @@ inline bool distance_of(const PlacedBox& box, const PlacedBall& ball, CoresDista
     // the exact parameter, whatever the quotient rounds to.
     const Double2 end{1, 1};
     const Double2 whole_a = whole * squares, one_a = 1 / whole_a, whole_b = whole * square_b;
-    const Double2 first = limited(crossed * rise_b - square_b * rise_a, whole);
-    const Double2 far_b = limited(crossed * first + rise_b * whole, whole_b);
+    const Double2 far_a = limited(square_b * rise_a - crossed * rise_b, whole);
+    const Double2 far_b = limited(crossed * far_a - rise_b * whole, whole_b);
     const Double2 part_b = lesser(greater(far_b * (square_a * one_a), select(far_b >= whole_b, end)), end);
-    const Double2 part_a = limited((crossed * far_b - rise_a * whole_b) * one_a, end);
+    const Double2 part_a = limited((crossed * far_b + rise_a * whole_b) * one_a, end), parts = lower(part_a, part_b);
     if (!(whole[0] > parallel * squares[0] && whole_a[0] + one_a[0] < max_square)) return false;
 
-    const Double3 on_a = along_a * part_a, between = along_b * part_b - between_ends - on_a;
+    const Double3 on_a = along_a * part_a, between = along_b * part_b + between_ends - on_a;
     // The root and the quotient run in parallel.
     const Double2 apart = dot(between, between), gap = root(apart);
     if (!(apart[0] > near * (square_a[0] + square_b[0]))) return false;
-    found.distance = gap;
     found.normal = between * (gap * (1 / apart));
-    found.on_a = a.from + on_a;
-    found.part_a = segment_feature(part_a);
-    found.part_b = segment_feature(part_b);
-    add_balls(a.radius, b.radius, found);
+    found.distance = gap - (a.radius + b.radius);
+    found.on_a = a.from + on_a + found.normal * a.radius;
+    found.on_b = found.on_a + found.normal * found.distance;
+    set_segment_features(parts, found);
     return true;
 }
 
@@ -139,6 +140,7 @@ inline bool distance_of(const PlacedSegment& a, const PlacedSegment& b, CoresDis
 /// Pairs in the other order.
 template <class A, class B>
 bool distance_of(const A& a, const B& b, CoresDistance& found) {
+    if (short_distance(a, b, found)) return true;
     if (!distance_of(b, a, found)) return false;
     flip(found);
     return true;

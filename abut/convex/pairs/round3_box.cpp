@@ -35,6 +35,7 @@ void set_result(const PlacedBox& box, const PlacedSegment& segment, double dista
     found.distance = lanes::double2(distance);
     found.normal = box.axes.vector(lanes::double3(normal));
     found.on_a = box.center + box.axes.vector(lanes::double3(on_box));
+    found.on_b = found.on_a + found.normal * found.distance;
     found.part_b = {part >= 1 ? 1u : 0u, part > 0 && part < 1 ? 1u : 0u};
     add_balls(box.radius, segment.radius, found);
 }

@@ -36,8 +36,7 @@ bool distance_of(const PlacedSegment& segment, const PlacedBall& ball, CoresDist
     const DVec<3> w = lanes::vector(ball.center) - from;
     const double uu = dot(u, u), uw = dot(u, w);
     const double part = uw <= 0 ? 0 : uw >= uu ? 1 : uw / uu;
-    found.part_a = segment_feature(lanes::double2(part));
-    found.part_b = {};
+    set_segment_features(lanes::double2(part, 0), found);
     DVec<3> on_segment = u * part, between = w - on_segment;
     double gap = length(between);
     const double scale = std::max(largest(u), largest(w));
@@ -54,6 +53,7 @@ bool distance_of(const PlacedSegment& segment, const PlacedBall& ball, CoresDist
                                   : found.part_a.free != 0 ? perpendicular(u)
                                                            : normalized(part > 0 ? u : -u));
     found.on_a = lanes::double3(from + on_segment);
+    found.on_b = ball.center;
     add_balls(segment.radius, ball.radius, found);
     return true;
 }
@@ -79,8 +79,8 @@ bool distance_of_any_segments(const PlacedSegment& a, const PlacedSegment& b, Co
     found.distance = lanes::double2(gap);
     found.normal = lanes::double3(normal);
     found.on_a = a.from + lanes::double3(on_a);
-    found.part_a = segment_feature(lanes::double2(places.on_a));
-    found.part_b = segment_feature(lanes::double2(places.on_b));
+    found.on_b = found.on_a + found.normal * found.distance;
+    set_segment_features(lanes::double2(places.on_a, places.on_b), found);
     add_balls(a.radius, b.radius, found);
     return true;
 }

@@ -17,6 +17,13 @@ void write(const SignedDistance<D>& distance, Closest<D>& result) {
 }
 
 template <int D>
+Contact<D> no_contact() {
+    Contact<D> result;
+    result.normal[0] = 1;
+    return result;
+}
+
+template <int D>
 void write(const SignedDistance<D>& distance, const Manifold<D>& manifold, Contact<D>& result) {
     result.normal = to_float(distance.normal);
     result.depth = static_cast<float>(-distance.distance);

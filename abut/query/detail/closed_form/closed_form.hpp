@@ -16,13 +16,6 @@
 namespace abut::detail {
 
 PairAnswer closed_form_overlap(const ShapeRef<2>& a, const ShapeRef<2>& b, Cache* cache);
-PairAnswer closed_form_overlap(const ShapeRef<3>& a, const ShapeRef<3>& b, Cache* cache);
-
-// These return false, and leave `result` unchanged, if they have no answer.
-
-bool closed_form_closest(const ShapeRef<3>& a, const ShapeRef<3>& b, Cache* cache, Closest<3>& result);
-
-bool closed_form_contact(const ShapeRef<3>& a, const ShapeRef<3>& b, double margin, Cache* cache, Contact<3>& result);
 
 /// A sweep of two plain shapes in the plane. The answer is `unknown` for shapes that touch at the start, slide or
 /// graze. `result` is written only if the answer is `yes`.

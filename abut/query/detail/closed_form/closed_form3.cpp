@@ -4,9 +4,11 @@
 #include <abut/query/detail/closed_form/core_pairs3.hpp>
 #include <abut/query/detail/part_pairs.hpp>
 #include <abut/query/detail/write_answer.hpp>
+#include <abut/query/overlaps.hpp>
 #include <abut/shape/polyhedron.hpp>
 
 #include <bit>
+#include <cstring>
 
 namespace abut::detail {
 namespace {
@@ -27,66 +29,29 @@ constexpr std::array<Feature, 64> core_features = [] {
 
 template <class Answer>
 void write_features(const CoresDistance& found, Answer& result) {
-    result.feature_a = core_features[(found.part_a.free ^ 7u) + 8 * found.part_a.low];
-    result.feature_b = core_features[(found.part_b.free ^ 7u) + 8 * found.part_b.low];
+    const auto feature = [](const CoreFeature& part) { return &core_features[(part.free ^ 7u) + 8 * part.low]; };
+    // With the padding, so that compilers drop the initial values.
+    std::memcpy(&result.feature_a, feature(found.part_a), sizeof(Feature));
+    std::memcpy(&result.feature_b, feature(found.part_b), sizeof(Feature));
 }
 
-[[gnu::always_inline]] inline void write_closest(const CoresDistance& found, Closest<3>& result) {
+// Each answer is written in the place of the caller's: a copy right after the writes would stall.
+
+[[gnu::always_inline]] inline Closest<3> written(const CoresDistance& found) {
+    Closest<3> result;
     result.distance = static_cast<float>(found.distance[0]);
     store(found.normal, result.normal);
     store(found.on_a, result.on_a);
-    store(found.on_b(), result.on_b);
+    store(found.on_b, result.on_b);
     write_features(found, result);
+    return result;
 }
 
-// A function for each pair of cores, out of line, so that each keeps its numbers in registers.
-
-template <class A, class B>
-[[gnu::noinline]] bool closest_in_full(const ShapeRef<3>& a, const ShapeRef<3>& b, Cache* cache, Closest<3>& result) {
-    CoresDistance found;
-    if (!distance_of(core_of<A>(a), core_of<B>(b), cache, found)) return false;
-    write_closest(found, result);
-    return true;
-}
-
-template <class A, class B>
-[[gnu::noinline]] bool closest_of(const ShapeRef<3>& a, const ShapeRef<3>& b, Cache* cache, Closest<3>& result) {
-    CoresDistance found;
-    if (a.pose == nullptr && b.pose == nullptr && short_distance(core_in_place<A>(a), core_in_place<B>(b), found) &&
-        lanes::finite(found.distance)) {
-        write_closest(found, result);
-        return true;
-    }
-    return closest_in_full<A, B>(a, b, cache, result);
-}
-
-template <class A, class B>
-[[gnu::noinline]] PairAnswer overlap_of_kinds(const ShapeRef<3>& a, const ShapeRef<3>& b, Cache* cache) {
-    return overlap_of(core_of<A>(a), core_of<B>(b), cache);
-}
-
-template <class A, class B>
-[[gnu::noinline]] PairAnswer contact_of(const ShapeRef<3>& given_a, const ShapeRef<3>& given_b, double margin,
-                                        Cache* cache, Contact<3>& result) {
-    const A a = core_of<A>(given_a);
-    const B b = core_of<B>(given_b);
-    CoresDistance found;
-    SignedDistance<3> distance;
-    Manifold<3> points;
-    if constexpr (std::is_same_v<A, PlacedBox> && std::is_same_v<B, PlacedBox>) {
-        const PairAnswer answer = contact_of_boxes(a, b, margin, margin, cache, found, points);
-        if (answer != PairAnswer::yes) return answer;
-        set_distance(found, distance);
-    } else {
-        if (are_apart(a, b, margin)) return PairAnswer::no;
-        if (!distance_of(a, b, cache, found)) return PairAnswer::unknown;
-        if (found.distance[0] > margin) return PairAnswer::no;
-        set_distance(found, distance);
-        if (!core_manifold(a, b, distance, margin, points)) return PairAnswer::unknown;
-    }
+inline Contact<3> written(const CoresDistance& found, const SignedDistance<3>& distance, const Manifold<3>& points) {
+    Contact<3> result;
     write(distance, points, result);
     write_features(found, result);
-    return PairAnswer::yes;
+    return result;
 }
 
 /// A ball around a box, a sphere or a polyhedron.
@@ -117,27 +82,137 @@ bool bounding_balls_apart(const ShapeRef<3>& a, const ShapeRef<3>& b, double rea
     return square > radii * radii * (1 + 1e-12) && std::isfinite(square);
 }
 
+// Answers by views, for pairs without a closed form, and for what one leaves open. Out of line, to keep the closed
+// forms short.
+
+[[gnu::noinline]] bool overlap_of_views(const ShapeRef<3>& a, const ShapeRef<3>& b, const QueryOptions<3>& options) {
+    if (options.trace == nullptr && bounding_balls_apart(a, b, 0)) return false;
+    return overlaps(convex_of(a), convex_of(b), options);
+}
+
+[[gnu::noinline]] Closest<3> closest_of_views(const ShapeRef<3>& a, const ShapeRef<3>& b,
+                                              const QueryOptions<3>& options) {
+    return closest(convex_of(a), convex_of(b), options);
+}
+
+[[gnu::noinline]] Contact<3> contact_of_views(const ShapeRef<3>& a, const ShapeRef<3>& b,
+                                              const QueryOptions<3>& options) {
+    if (options.trace == nullptr && bounding_balls_apart(a, b, static_cast<double>(options.margin)))
+        return no_contact<3>();
+    return contact(convex_of(a), convex_of(b), options);
+}
+
+// A function for each pair of cores, out of line, so that each keeps its numbers in registers.
+
+template <class A, class B>
+bool overlap_of_kinds(const ShapeRef<3>& a, const ShapeRef<3>& b, const QueryOptions<3>& options) {
+    if (options.trace == nullptr) {
+        const PairAnswer answer = a.pose == nullptr && b.pose == nullptr
+                                      ? overlap_of(core_in_place<A>(a), core_in_place<B>(b), options.cache)
+                                      : overlap_of(core_of<A>(a), core_of<B>(b), options.cache);
+        if (answer != PairAnswer::unknown) return answer == PairAnswer::yes;
+    }
+    return overlap_of_views(a, b, options);
+}
+
+template <class A, class B>
+[[gnu::noinline]] Closest<3> closest_in_full(const ShapeRef<3>& a, const ShapeRef<3>& b,
+                                             const QueryOptions<3>& options) {
+    CoresDistance found;
+    if (options.trace == nullptr && distance_of(core_of<A>(a), core_of<B>(b), options.cache, found))
+        return written(found);
+    return closest_of_views(a, b, options);
+}
+
+template <class A, class B>
+Closest<3> closest_of_kinds(const ShapeRef<3>& a, const ShapeRef<3>& b, const QueryOptions<3>& options) {
+    CoresDistance found;
+    if (a.pose == nullptr && b.pose == nullptr && options.trace == nullptr &&
+        short_distance(core_in_place<A>(a), core_in_place<B>(b), found) && lanes::finite(found.distance))
+        return written(found);
+    return closest_in_full<A, B>(a, b, options);
+}
+
+template <class A, class B>
+Contact<3> contact_of_cores(const A& a, const B& b, const ShapeRef<3>& given_a, const ShapeRef<3>& given_b,
+                            const QueryOptions<3>& options) {
+    constexpr bool boxes = std::is_same_v<A, PlacedBox> && std::is_same_v<B, PlacedBox>;
+    const double margin = static_cast<double>(options.margin);
+    CoresDistance found;
+    Manifold<3> points;
+    if constexpr (boxes) {
+        const PairAnswer answer = contact_of_boxes(a, b, margin, margin, options.cache, found, points);
+        if (answer == PairAnswer::no) return no_contact<3>();
+        if (answer == PairAnswer::unknown) return contact_of_views(given_a, given_b, options);
+    } else {
+        if (are_apart(a, b, margin)) return no_contact<3>();
+        if (!distance_of(a, b, options.cache, found)) return contact_of_views(given_a, given_b, options);
+        if (found.distance[0] > margin) return no_contact<3>();
+    }
+    SignedDistance<3> distance;
+    set_distance(found, distance);
+    if constexpr (!boxes)
+        if (!core_manifold(a, b, distance, margin, points)) return contact_of_views(given_a, given_b, options);
+    return written(found, distance, points);
+}
+
+template <class A, class B>
+Contact<3> contact_of_kinds(const ShapeRef<3>& a, const ShapeRef<3>& b, const QueryOptions<3>& options) {
+    if (options.trace != nullptr) return contact_of_views(a, b, options);
+    if (a.pose == nullptr && b.pose == nullptr)
+        return contact_of_cores(core_in_place<A>(a), core_in_place<B>(b), a, b, options);
+    return contact_of_cores(core_of<A>(a), core_of<B>(b), a, b, options);
+}
+
+/// A function for each pair of shapes: of(type_identity<core of A>, type_identity<core of B>), or `otherwise` for
+/// shapes without cores. One jump through it costs less than comparing kinds.
+template <class Function>
+struct PairTable {
+    static constexpr std::size_t kinds = std::bit_ceil(static_cast<std::size_t>(ShapeKind::polytope) + 1);
+    Function functions[kinds][kinds];
+
+    template <class Of>
+    constexpr PairTable(Function otherwise, const Of& of) : functions{} {
+        for (std::size_t i = 0; i < kinds; ++i)
+            for (std::size_t j = 0; j < kinds; ++j)
+                functions[i][j] = with_kinds(static_cast<ShapeKind>(i), static_cast<ShapeKind>(j), otherwise, of);
+    }
+
+    Function of(const ShapeRef<3>& a, const ShapeRef<3>& b) const {
+        return functions[static_cast<std::size_t>(a.kind)][static_cast<std::size_t>(b.kind)];
+    }
+};
+
+constexpr PairTable overlap_table(&overlap_of_views, [](auto a, auto b) {
+    return &overlap_of_kinds<typename decltype(a)::type, typename decltype(b)::type>;
+});
+constexpr PairTable closest_table(&closest_of_views, [](auto a, auto b) {
+    return &closest_of_kinds<typename decltype(a)::type, typename decltype(b)::type>;
+});
+constexpr PairTable contact_table(&contact_of_views, [](auto a, auto b) {
+    return &contact_of_kinds<typename decltype(a)::type, typename decltype(b)::type>;
+});
+
 }  // namespace
-
-PairAnswer closed_form_overlap(const ShapeRef<3>& a, const ShapeRef<3>& b, Cache* cache) {
-    const PairAnswer answer = with_kinds(a, b, PairAnswer::unknown, [&](auto kind_a, auto kind_b) {
-        return overlap_of_kinds<typename decltype(kind_a)::type, typename decltype(kind_b)::type>(a, b, cache);
-    });
-    return answer == PairAnswer::unknown && bounding_balls_apart(a, b, 0) ? PairAnswer::no : answer;
-}
-
-bool closed_form_closest(const ShapeRef<3>& a, const ShapeRef<3>& b, Cache* cache, Closest<3>& result) {
-    return with_kinds(a, b, false, [&](auto kind_a, auto kind_b) {
-        return closest_of<typename decltype(kind_a)::type, typename decltype(kind_b)::type>(a, b, cache, result);
-    });
-}
-
-bool closed_form_contact(const ShapeRef<3>& a, const ShapeRef<3>& b, double margin, Cache* cache, Contact<3>& result) {
-    const PairAnswer answer = with_kinds(a, b, PairAnswer::unknown, [&](auto kind_a, auto kind_b) {
-        return contact_of<typename decltype(kind_a)::type, typename decltype(kind_b)::type>(a, b, margin, cache,
-                                                                                            result);
-    });
-    return answer != PairAnswer::unknown || bounding_balls_apart(a, b, margin);
-}
-
 }  // namespace abut::detail
+
+namespace abut {
+
+using namespace detail;
+
+template <>
+bool overlaps(const ShapeRef<3>& a, const ShapeRef<3>& b, const QueryOptions<3>& options) {
+    return overlap_table.of(a, b)(a, b, options);
+}
+
+template <>
+Closest<3> closest(const ShapeRef<3>& a, const ShapeRef<3>& b, const QueryOptions<3>& options) {
+    return closest_table.of(a, b)(a, b, options);
+}
+
+template <>
+Contact<3> contact(const ShapeRef<3>& a, const ShapeRef<3>& b, const QueryOptions<3>& options) {
+    return contact_table.of(a, b)(a, b, options);
+}
+
+}  // namespace abut

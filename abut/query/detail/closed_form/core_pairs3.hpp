@@ -15,10 +15,10 @@
 
 namespace abut::detail {
 
-/// Whether the shape has a core of convex/pairs/placed_cores.hpp.
-inline bool has_core(const ShapeRef<3>& given) {
-    return given.kind == ShapeKind::ball || given.kind == ShapeKind::capsule || given.kind == ShapeKind::segment ||
-           given.kind == ShapeKind::box;
+/// Whether shapes of this kind have a core of convex/pairs/placed_cores.hpp.
+constexpr bool has_core(ShapeKind kind) {
+    return kind == ShapeKind::ball || kind == ShapeKind::capsule || kind == ShapeKind::segment ||
+           kind == ShapeKind::box;
 }
 
 /// The core of a plain shape, without its pose.
@@ -33,10 +33,11 @@ template <class Core>
         return {loaded(ball.center), loaded_twice(ball.radius)};
     } else {
         // A segment has the members of a capsule but the radius.
+        static constexpr float none = 0;
         const bool round = given.kind == ShapeKind::capsule;
         const Vec3& from = round ? given.as<Capsule3>().a : given.as<Segment<3>>().a;
         const Vec3& to = round ? given.as<Capsule3>().b : given.as<Segment<3>>().b;
-        return {loaded(from), loaded(to), round ? loaded_twice(given.as<Capsule3>().radius) : double2(0)};
+        return {loaded(from), loaded(to), loaded_twice(*(round ? &given.as<Capsule3>().radius : &none))};
     }
 }
 
@@ -64,13 +65,13 @@ Core core_of(const ShapeRef<3>& given) {
     }
 }
 
-/// Calls visit(type_identity<core of A>, type_identity<core of B>) for shapes that have cores. Returns its answer, or
-/// `otherwise`.
+/// Calls visit(type_identity<core of A>, type_identity<core of B>) for kinds of shapes that have cores. Returns its
+/// answer, or `otherwise`.
 template <class Answer, class Visit>
-Answer with_kinds(const ShapeRef<3>& a, const ShapeRef<3>& b, Answer otherwise, const Visit& visit) {
-    const auto with_kind = [&](const ShapeRef<3>& given, const auto& go_on) {
-        if (given.kind == ShapeKind::box) return go_on(std::type_identity<PlacedBox>());
-        if (given.kind == ShapeKind::ball) return go_on(std::type_identity<PlacedBall>());
+constexpr Answer with_kinds(ShapeKind a, ShapeKind b, Answer otherwise, const Visit& visit) {
+    const auto with_kind = [](ShapeKind kind, const auto& go_on) {
+        if (kind == ShapeKind::box) return go_on(std::type_identity<PlacedBox>());
+        if (kind == ShapeKind::ball) return go_on(std::type_identity<PlacedBall>());
         return go_on(std::type_identity<PlacedSegment>());
     };
     if (!has_core(a) || !has_core(b)) return otherwise;
