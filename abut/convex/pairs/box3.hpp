@@ -17,7 +17,7 @@ bool still_separated(const PlacedBox& a, const PlacedBox& b, double reach, const
 /// For boxes of which the cheap tests have separated nothing.
 PairAnswer boxes_overlap(const PlacedBox& a, const PlacedBox& b, const BoxFaceGaps& gaps, Cache* cache);
 
-inline PairAnswer boxes_overlap(const PlacedBox& a, const PlacedBox& b, Cache* cache) {
+[[gnu::always_inline]] inline PairAnswer boxes_overlap(const PlacedBox& a, const PlacedBox& b, Cache* cache) {
     const double reach = a.radius[0] + b.radius[0];
     if (cache != nullptr && still_separated(a, b, reach, *cache)) return PairAnswer::no;
     const BoxFaceGaps gaps(a, b);

@@ -20,7 +20,7 @@ struct BoxFaceGap {
 /// suffice to separate the boxes.
 class BoxFaceGaps {
 public:
-    BoxFaceGaps(const PlacedBox& a, const PlacedBox& b)
+    [[gnu::always_inline]] BoxFaceGaps(const PlacedBox& a, const PlacedBox& b)
         : half_a_(a.half),
           half_b_(b.half),
           axis_b_{a.axes.transposed(b.axes.first_column()), a.axes.transposed(b.axes.second_column()),

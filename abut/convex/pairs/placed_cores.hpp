@@ -23,7 +23,7 @@ struct PlacedBox {
     lanes::Double3 center, half;
     lanes::Double2 radius;
 
-    PlacedBox(const Vec3& center_of_box, const Vec3& half_of_box, const glm::quat& rotation)
+    [[gnu::always_inline]] PlacedBox(const Vec3& center_of_box, const Vec3& half_of_box, const glm::quat& rotation)
         : axes(lanes::turned(rotation)),
           center(lanes::loaded(center_of_box)),
           half(lanes::loaded(half_of_box)),

@@ -37,7 +37,7 @@ struct Turned {
 };
 
 /// The matrix of a nonzero quaternion, bit for bit that of `set_affine`.
-inline Turned turned(const glm::quat& q) {
+[[gnu::always_inline]] inline Turned turned(const glm::quat& q) {
     // Independent of glm's storage order.
     constexpr bool w_is_last = offsetof(glm::quat, w) > offsetof(glm::quat, z);
     const Double2 xy = loaded(&q.x),

@@ -28,7 +28,7 @@ constexpr std::array<Feature, 64> core_features = [] {
 }();
 
 template <class Answer>
-void write_features(const CoresDistance& found, Answer& result) {
+[[gnu::always_inline]] inline void write_features(const CoresDistance& found, Answer& result) {
     const auto feature = [](const CoreFeature& part) { return &core_features[(part.free ^ 7u) + 8 * part.low]; };
     // With the padding, so that compilers drop the initial values.
     std::memcpy(&result.feature_a, feature(found.part_a), sizeof(Feature));

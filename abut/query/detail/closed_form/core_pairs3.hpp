@@ -97,7 +97,7 @@ bool are_apart(const A& a, const B& b, double within) {
         return false;
 }
 
-inline PairAnswer overlap_of(const PlacedBox& a, const PlacedBox& b, Cache* cache) {
+[[gnu::always_inline]] inline PairAnswer overlap_of(const PlacedBox& a, const PlacedBox& b, Cache* cache) {
     return boxes_overlap(a, b, cache);
 }
 template <class A, class B>
