@@ -141,13 +141,13 @@ std::uint64_t hash_of_sweeps() {
 class GoldenDirect : public oracle::BySimdTarget {};
 
 TEST_P(GoldenDirect, AnswersInThePlaneHaveTheSameBitsEverywhere) {
-    EXPECT_EQ(hash_of_closed_forms<2>(), 6175405033358560184u);
+    EXPECT_EQ(hash_of_closed_forms<2>(), 5117989531242403468u);
 }
 TEST_P(GoldenDirect, AnswersInSpaceHaveTheSameBitsEverywhere) {
-    EXPECT_EQ(hash_of_closed_forms<3>(), 1217324413282790033u);
+    EXPECT_EQ(hash_of_closed_forms<3>(), 8723407644952207870u);
 }
 TEST_P(GoldenDirect, SweepsInThePlaneHaveTheSameBitsEverywhere) {
-    EXPECT_EQ(hash_of_sweeps(), 3185737547111105089u);
+    EXPECT_EQ(hash_of_sweeps(), 4110434063458142389u);
 }
 
 INSTANTIATE_TEST_SUITE_P(Targets, GoldenDirect, oracle::simd_targets(), oracle::simd_target_name);
