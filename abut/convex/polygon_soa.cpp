@@ -6,7 +6,9 @@ namespace abut::detail {
 
 void write_polygon_soa(std::span<const Vec2> points, double* numbers) {
     const auto count = static_cast<std::uint32_t>(points.size()), capacity = padded_edge_count(count);
-    const auto place = [&](std::size_t i) { return numbers + (PolygonSoa{numbers, count}.at(i) - numbers); };
+    const auto at = [&](std::size_t i, std::size_t row) -> double& {
+        return numbers[PolygonSoa::place(i) + row * soa_lanes];
+    };
     const DVec<2> first(points[0]);
     DVec<2> from = first, low = from, high = from;
     double area = 0;
@@ -16,7 +18,7 @@ void write_polygon_soa(std::span<const Vec2> points, double* numbers) {
         const double part = 1 / std::sqrt(dot(edge, edge));
         const DVec<2> normal(edge.y * part, -edge.x * part);
         const double row[] = {from.x, from.y, normal.x, normal.y, dot(normal, from)};
-        for (std::uint32_t k = 0; k < soa_rows; ++k) place(i)[k * soa_lanes] = row[k];
+        for (std::uint32_t k = 0; k < soa_rows; ++k) at(i, k) = row[k];
         area += cross(from - first, edge);
         low = {std::min(low.x, from.x), std::min(low.y, from.y)};
         high = {std::max(high.x, from.x), std::max(high.y, from.y)};
@@ -24,8 +26,8 @@ void write_polygon_soa(std::span<const Vec2> points, double* numbers) {
     }
     // A padding edge has no gap in front of it: it never is the widest, not even in a tie with its original.
     for (std::uint32_t i = count; i < capacity; ++i) {
-        for (std::uint32_t k = 0; k < soa_rows; ++k) place(i)[k * soa_lanes] = place(0)[k * soa_lanes];
-        place(i)[4 * soa_lanes] = std::numeric_limits<double>::infinity();
+        for (std::uint32_t k = 0; k < soa_rows; ++k) at(i, k) = at(0, k);
+        at(i, 4) = std::numeric_limits<double>::infinity();
     }
     numbers[0] = 0.5 * length(high - low);
     numbers[1] = 0.5 * area;

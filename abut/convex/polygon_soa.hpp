@@ -30,12 +30,11 @@ struct PolygonSoa {
 
     /// The count with the padding.
     std::uint32_t capacity() const { return padded_edge_count(count); }
-    /// The x of corner i. The other numbers of the corner and its edge follow at distances of `soa_lanes`, and the next
-    /// corners of the block beside each. One address serves them all: a query reads few corners, each on one or two
-    /// cache lines.
-    const double* at(std::size_t i) const {
-        return numbers + 2 + i + (i & ~std::size_t{soa_lanes - 1}) * (soa_rows - 1);
-    }
+    /// The place of the x of corner i. The other numbers of the corner and its edge follow at distances of `soa_lanes`,
+    /// and the next corners of the block beside each. One address serves them all: a query reads few corners, each on
+    /// one or two cache lines.
+    static std::size_t place(std::size_t i) { return 2 + i + (i & ~std::size_t{soa_lanes - 1}) * (soa_rows - 1); }
+    const double* at(std::size_t i) const { return numbers + place(i); }
     double x(std::uint32_t i) const { return at(i)[0]; }
     double y(std::uint32_t i) const { return at(i)[soa_lanes]; }
     double normal_x(std::uint32_t i) const { return at(i)[2 * soa_lanes]; }

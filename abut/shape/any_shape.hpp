@@ -39,7 +39,7 @@ public:
     /// The bounding box of the shape at a pose; empty if a number is NaN or infinite.
     Aabb<D> bounds(const Pose<D>& pose) const { return stored_->bounds(pose); }
     /// Whether both are copies of one AnyShape, which share its data.
-    bool is_shared_with(const AnyShape& other) const { return stored_.operator->() == other.stored_.operator->(); }
+    bool is_shared_with(const AnyShape& other) const { return stored_ == other.stored_; }
 
 private:
     struct Stored : detail::Counted {

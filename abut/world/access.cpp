@@ -10,13 +10,7 @@ ItemOptions<D> World<D>::options(Id id) const {
     const Item* item = find(id);
     ABUT_ASSERT(item != nullptr);
     if (item == nullptr) return {.layers = 0, .mask = 0};
-    return {.pose = item->pose,
-            .user = item->user,
-            .layers = item->layers,
-            .mask = item->mask,
-            .fixed = item->fixed,
-            .sensor = item->sensor,
-            .continuous = item->continuous};
+    return item->options();
 }
 
 template <int D>

@@ -46,6 +46,7 @@ struct SnapshotSizes {
     }
 };
 
+/// Writes into a buffer of known size, where BlobWriter would append each word.
 class WordWriter {
 public:
     explicit WordWriter(std::byte* at) : at_(at) {}
@@ -72,33 +73,22 @@ private:
     std::byte* at_;
 };
 
-/// Reads what was written; the bytes suffice.
-class WordReader {
-public:
-    explicit WordReader(const std::byte* at) : at_(at) {}
+// These read what was written, where the bytes suffice.
 
-    template <class... T>
-    void get(T&... words) {
-        (get_word(words), ...);
-    }
-    void get(Pose<2>& pose) { get(pose.position.x, pose.position.y, pose.rotation.cos, pose.rotation.sin); }
-    void get(Pose<3>& pose) {
-        glm::quat& rotation = pose.rotation;
-        get(pose.position.x, pose.position.y, pose.position.z, rotation.x, rotation.y, rotation.z, rotation.w);
-    }
-    void get(Id& id) { get(id.index, id.generation); }
-    const std::byte* at() const { return at_; }
-
-private:
-    template <class T>
-    void get_word(T& word) {
-        std::memcpy(&word, at_, sizeof(T));
-        word = little(word);
-        at_ += sizeof(T);
-    }
-
-    const std::byte* at_;
-};
+template <class... T>
+void get(BlobReader& reader, T&... words) {
+    (reader.number(words), ...);
+}
+void get(BlobReader& reader, Pose<2>& pose) {
+    get(reader, pose.position.x, pose.position.y, pose.rotation.cos, pose.rotation.sin);
+}
+void get(BlobReader& reader, Pose<3>& pose) {
+    glm::quat& rotation = pose.rotation;
+    get(reader, pose.position.x, pose.position.y, pose.position.z, rotation.x, rotation.y, rotation.z, rotation.w);
+}
+void get(BlobReader& reader, Id& id) {
+    get(reader, id.index, id.generation);
+}
 
 Problem damaged() {
     return {ProblemCode::bad_format, "a snapshot of a world is damaged or not one"};
@@ -187,10 +177,11 @@ void World<D>::save(std::vector<std::byte>& bytes) {
 template <int D>
 struct World<D>::Snapshot {
     struct SavedItem {
-        std::uint32_t slot = 0, generation = 0;
-        Pose<D> pose{};
-        std::uint64_t user = 0, hash = 0;
-        std::uint32_t layers = 0, mask = 0, flags = 0;
+        std::uint32_t slot = 0, generation = 0, flags = 0;
+        std::uint64_t hash = 0;
+        ItemOptions<D> options;
+
+        bool is_settled() const { return (flags & settled_flag) != 0; }
     };
     struct SavedMotion {
         std::uint32_t slot = 0;
@@ -209,18 +200,21 @@ struct World<D>::Snapshot {
     }
 
 private:
-    bool read_lists(const std::byte* lists, const SnapshotSizes& sizes);
+    bool read_lists(std::span<const std::byte> lists, const SnapshotSizes& sizes);
     bool has_item(std::uint32_t slot) const { return slot < slots && place_[slot] != none; }
     SavedItem item(std::uint32_t slot) const {
-        WordReader reader(items_ + item_words<D> * sizeof(std::uint32_t) * place_[slot]);
+        BlobReader reader(items_.subspan(item_words<D> * sizeof(std::uint32_t) * place_[slot]));
         SavedItem item;
         item.slot = slot;
-        reader.get(item.pose);
-        reader.get(item.user, item.hash, item.layers, item.mask, item.generation, item.flags);
+        get(reader, item.options.pose);
+        get(reader, item.options.user, item.hash, item.options.layers, item.options.mask, item.generation, item.flags);
+        item.options.fixed = (item.flags & fixed_flag) != 0;
+        item.options.sensor = (item.flags & sensor_flag) != 0;
+        item.options.continuous = (item.flags & continuous_flag) != 0;
         return item;
     }
 
-    const std::byte* items_ = nullptr;
+    std::span<const std::byte> items_;  // the records
     std::vector<std::uint32_t> place_;  // by slot: the index of its record; none if it is free
 };
 
@@ -229,36 +223,36 @@ std::optional<Problem> World<D>::Snapshot::read(std::span<const std::byte> bytes
     SnapshotSizes sizes;
     const std::uint64_t header = SnapshotSizes{}.words<D>() * sizeof(std::uint32_t);
     if (bytes.size() < header + sizeof(std::uint64_t)) return damaged();
-    WordReader reader(bytes.data());
+    BlobReader reader(bytes);
     std::uint32_t first = 0, second = 0, its_version = 0, dimension = 0;
-    reader.get(first, second, its_version, dimension);
+    get(reader, first, second, its_version, dimension);
     if (first != magic[0] || second != magic[1]) return damaged();
     if (its_version != version || dimension != D)
         return Problem{ProblemCode::bad_format, "a snapshot of a world has version " + std::to_string(its_version) +
                                                     " and dimension " + std::to_string(dimension) + ", not " +
                                                     std::to_string(version) + " and " + std::to_string(D)};
-    sizes.each([&](std::uint32_t& number) { reader.get(number); });
+    sizes.each([&](std::uint32_t& number) { get(reader, number); });
     if (sizes.free > sizes.slots) return damaged();
     const std::uint64_t size = sizes.words<D>() * sizeof(std::uint32_t);
     if (bytes.size() != size + sizeof(std::uint64_t)) return damaged();
     std::uint64_t checksum = 0;
-    WordReader(bytes.data() + size).get(checksum);
+    BlobReader(bytes.subspan(static_cast<std::size_t>(size))).number(checksum);
     if (checksum != blob_checksum<checksum_sums>(bytes.first(static_cast<std::size_t>(size)))) return damaged();
-    if (!read_lists(reader.at(), sizes)) return damaged();
+    if (!read_lists(bytes.last(reader.left()), sizes)) return damaged();
     return std::nullopt;
 }
 
 template <int D>
-bool World<D>::Snapshot::read_lists(const std::byte* lists, const SnapshotSizes& sizes) {
+bool World<D>::Snapshot::read_lists(std::span<const std::byte> lists, const SnapshotSizes& sizes) {
     slots = sizes.slots;
     place_.assign(slots, 0);
-    WordReader reader(lists);
+    BlobReader reader(lists);
     for (std::uint32_t i = 0; i < sizes.free; ++i) {
         auto& [slot, generation] = free.emplace_back();
-        reader.get(slot, generation);
+        get(reader, slot, generation);
         if (slot >= slots || std::exchange(place_[slot], none) == none) return false;
     }
-    items_ = reader.at();
+    items_ = lists.last(reader.left());
     std::uint32_t items = 0;
     for (std::uint32_t slot = 0; slot < slots; ++slot) {
         if (place_[slot] == none) continue;
@@ -266,26 +260,26 @@ bool World<D>::Snapshot::read_lists(const std::byte* lists, const SnapshotSizes&
         const SavedItem saved = item(slot);
         if (saved.generation == 0 || saved.flags > all_flags) return false;
     }
-    reader = WordReader(items_ + item_words<D> * sizeof(std::uint32_t) * items);
+    reader = BlobReader(items_.subspan(item_words<D> * sizeof(std::uint32_t) * items));
     for (std::uint32_t i = 0; i < sizes.motions; ++i) {
         SavedMotion& motion = motions.emplace_back();
-        reader.get(motion.slot);
-        reader.get(motion.previous);
-        if (!has_item(motion.slot) || (item(motion.slot).flags & settled_flag) == 0) return false;
+        get(reader, motion.slot);
+        get(reader, motion.previous);
+        if (!has_item(motion.slot) || !item(motion.slot).is_settled()) return false;
         if (i > 0 && motions[i - 1].slot >= motion.slot) return false;
     }
     touching.reserve(std::size_t{sizes.touching} + sizes.stale);
     for (std::uint32_t i = 0; i < sizes.touching; ++i) {
         std::uint32_t a = 0, b = 0;
-        reader.get(a, b);
+        get(reader, a, b);
         if (!has_item(a) || !has_item(b)) return false;
         touching.push_back({{a + 1, item(a).generation}, {b + 1, item(b).generation}});
     }
     const auto get_ids = [&](std::vector<IdPair>& pairs, std::uint32_t count) {
         for (std::uint32_t i = 0; i < count; ++i) {
             IdPair& pair = pairs.emplace_back();
-            reader.get(pair.a);
-            reader.get(pair.b);
+            get(reader, pair.a);
+            get(reader, pair.b);
         }
     };
     get_ids(touching, sizes.stale);
@@ -306,7 +300,7 @@ bool World<D>::Snapshot::read_lists(const std::byte* lists, const SnapshotSizes&
     return are_pairs(touching) && are_pairs(passed);
 }
 
-/// Finds the shapes of the saved items whose slots have another shape now.
+/// Finds the shapes of the saved items that don't have their shape in their slot now, or not in the same broad phase.
 template <int D>
 std::optional<Problem> World<D>::find_shapes(const Snapshot& snapshot,
                                              std::vector<std::pair<std::uint32_t, AnyShape<D>>>& changed) {
@@ -321,8 +315,10 @@ std::optional<Problem> World<D>::find_shapes(const Snapshot& snapshot,
     };
     std::optional<Problem> problem;
     snapshot.each_item([&](const auto& saved) {
-        if (saved.slot < items_.size() && items_[saved.slot].in_use && shape_hashes_[saved.slot] == saved.hash) return;
-        const AnyShape<D>* shape = released_shapes_.find(saved.hash);
+        const Item* const item = saved.slot < items_.size() ? &items_[saved.slot] : nullptr;
+        const bool has_shape = item != nullptr && item->in_use && shape_hashes_[saved.slot] == saved.hash;
+        if (has_shape && item->fixed == saved.options.fixed) return;
+        const AnyShape<D>* shape = has_shape ? &item->stored : released_shapes_.find(saved.hash);
         if (shape == nullptr) shape = present_shape(saved.hash);
         if (shape != nullptr)
             changed.emplace_back(saved.slot, *shape);
@@ -335,25 +331,16 @@ std::optional<Problem> World<D>::find_shapes(const Snapshot& snapshot,
     return problem;
 }
 
-/// The item's slot has the shape already, and is not in use if it is new there.
+/// The slot has the item's shape, and is not in use if it is new there.
 template <int D>
 template <class SavedItem>
 void World<D>::restore_item(const SavedItem& saved) {
     Item& item = items_[saved.slot];
-    const bool is_fixed = (saved.flags & fixed_flag) != 0, is_new = !item.in_use;
-    const bool has_same_box = !is_new && item.fixed == is_fixed && item.pose == saved.pose;
-    if (item.in_use && item.fixed != is_fixed) boxes_of(item).remove(item.place);
-    if (item.in_use) continuous_ -= item.continuous ? 1 : 0;
-    const bool needs_place = is_new || item.fixed != is_fixed;
-    item.pose = saved.pose;
-    item.user = saved.user;
-    item.layers = saved.layers;
-    item.mask = saved.mask;
+    const bool is_new = !item.in_use, has_box = !is_new && item.pose == saved.options.pose;
+    if (!is_new) continuous_ -= item.continuous ? 1 : 0;
+    item.set(saved.options);
     item.generation = saved.generation;
-    item.fixed = is_fixed;
-    item.sensor = (saved.flags & sensor_flag) != 0;
-    item.continuous = (saved.flags & continuous_flag) != 0;
-    item.settled = (saved.flags & settled_flag) != 0;
+    item.settled = saved.is_settled();
     item.previous = none;
     continuous_ += item.continuous ? 1 : 0;
     if (is_new) {
@@ -361,9 +348,9 @@ void World<D>::restore_item(const SavedItem& saved) {
         item.in_use = true;
         ++count_;
         set_shape_data(item);
+        add_to_boxes(saved.slot);
     }
-    if (needs_place) add_to_boxes(saved.slot);
-    if (!has_same_box) boxes_of(item).set(item.place, box_at(item, item.pose));
+    if (!has_box) boxes_of(item).set(item.place, box_at(item, item.pose));
 }
 
 template <int D>

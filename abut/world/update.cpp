@@ -173,7 +173,7 @@ Events World<D>::find_events() {
     impacts_.clear();
     first_.slot = none;
     counts_ = {near_.size(), 0, 0};
-    find_neighbours();
+    list_partners();
     for (const IdPair& pair : near_) test_pair(pair);
     report_contacts();
     ball_early_outs_.decide();

@@ -47,13 +47,7 @@ Id World<D>::add_shape(const AnyShape<D>& shape, const ItemOptions<D>& options) 
         items_[slot].stored = shape;
     }
     Item& item = items_[slot];
-    item.user = options.user;
-    item.pose = options.pose;
-    item.layers = options.layers;
-    item.mask = options.mask;
-    item.fixed = options.fixed;
-    item.sensor = options.sensor;
-    item.continuous = options.continuous;
+    item.set(options);
     item.in_use = true;
     ++item.generation;
     ++count_;

@@ -156,7 +156,7 @@ requires(!ShapeIn<S, D> || !std::is_invocable_v<MotionsInWorld<D>, Motions...> |
 template <int D>
 class World {
 public:
-    World() = default;
+    World() : World(WorldOptions()) {}
     explicit World(const WorldOptions& options)
         : fixed_(options.broad_phase),
           moving_(options.broad_phase),
@@ -416,6 +416,17 @@ private:
         bool fixed = false, sensor = false, continuous = false;
         bool pending = false;  // changed since the last update
         bool settled = false;  // present at the last update with this shape
+
+        ItemOptions<D> options() const { return {pose, user, layers, mask, fixed, sensor, continuous}; }
+        void set(const ItemOptions<D>& options) {
+            pose = options.pose;
+            user = options.user;
+            layers = options.layers;
+            mask = options.mask;
+            fixed = options.fixed;
+            sensor = options.sensor;
+            continuous = options.continuous;
+        }
     };
 
     /// The contact of a touching pair, before ghost contacts are dropped.
@@ -500,7 +511,7 @@ private:
     bool filters_edges(std::uint32_t slot) const;
     bool are_solid(std::uint32_t slot, std::uint32_t other) const;
     void reserve_edge_filter();
-    void find_neighbours();
+    void list_partners();
     void find_changed_neighbours();
     bool neighbours_changed(const IdPair& pair);
     void each_closest_point_beside(std::uint32_t slot, std::uint32_t other, const detail::DVec<D>& point, double within,
@@ -512,7 +523,7 @@ private:
     void add_found(const IdPair& pair, const detail::SurfaceContact<D>& filtered);
     std::span<const FoundContact> last_contacts(const IdPair& pair) const;
     bool is_covered(const FoundContact& ghost, const Id& item) const;
-    void find_contacts_beside_ghosts();
+    void link_contacts();
     void report_contacts();
     void compare_with_last();
     void set_fractions();
@@ -552,7 +563,7 @@ private:
     double queries_per_item_ = 0;             // running mean of queries per update and moving item
     bool filters_edges_ = true;
     std::vector<std::uint64_t> shape_hashes_;  // by slot; 0: not known; the vector may be shorter than items_
-    detail::ReleasedShapes<D> released_shapes_{WorldOptions{}.max_released_shapes};
+    detail::ReleasedShapes<D> released_shapes_;
 
     std::vector<IdPair> near_, last_near_;
     struct DeleteEdgeFilterState {

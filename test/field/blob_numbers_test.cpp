@@ -1,6 +1,6 @@
 // Loaded bytes whose numbers are no distances: the load refuses them, or every answer of the field is finite.
 
-#include "../oracle/bake/seal.hpp"
+#include "../oracle/seal.hpp"
 #include "analytic.hpp"
 #include <abut/field/file.hpp>
 #include <abut/field/quantise.hpp>

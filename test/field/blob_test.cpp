@@ -1,6 +1,6 @@
 // Saving and loading of fields.
 
-#include "../oracle/bake/seal.hpp"
+#include "../oracle/seal.hpp"
 #include "analytic.hpp"
 #include <abut/field/file.hpp>
 #include <abut/field/quantise.hpp>

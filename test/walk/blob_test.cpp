@@ -1,7 +1,7 @@
 // Saving and loading of walk meshes.
 
-#include "../oracle/bake/seal.hpp"
 #include "../oracle/random.hpp"
+#include "../oracle/seal.hpp"
 #include "../shape/meshes.hpp"
 #include "walk_surfaces.hpp"
 #include <abut/walk/data.hpp>

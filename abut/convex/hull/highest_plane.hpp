@@ -2,19 +2,12 @@
 
 // For each of many points, the plane that it is highest above.
 
-#include <abut/math/vec.hpp>
+#include <abut/math/detail/plane.hpp>
 
 #include <cstddef>
 #include <span>
 
 namespace abut::detail {
-
-/// A line in 2D, a plane in 3D: dot(normal, p) == offset, with larger values above it.
-template <int D>
-struct Plane {
-    DVec<D> normal;
-    double offset = 0;
-};
 
 /// Columns need this capacity beyond their points, which is read and written as well.
 inline constexpr std::size_t highest_plane_padding = 8;

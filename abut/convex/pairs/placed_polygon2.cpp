@@ -3,8 +3,9 @@
 
 namespace abut::detail {
 
-ScaledTurn ScaledTurn::normalised(const Turn& given) {
-    return {abut::detail::unit_turn(given), lanes::double2(1)};
+ScaledTurn ScaledTurn::normalised(Double2 turn) {
+    const DVec<2> unit_turn = unit(vector_of(turn));
+    return {lanes::double2(unit_turn.x, unit_turn.y), lanes::double2(1)};
 }
 
 bool PlacedPolygon::set_triangle(const Vec2& a, const Vec2& b, const Vec2& c) {

@@ -43,20 +43,18 @@ struct ScaledTurn {
     explicit ScaledTurn(const Turn& given) : turn(lanes::loaded(&given.cos)) {
         const Double2 squares = lanes::dot(turn, turn);
         scale = lanes::inverse_root(squares);
-        if (!lanes::is_near_one(squares[0])) *this = normalised(given);
+        if (!lanes::is_near_one(squares[0])) *this = normalised(turn);
     }
     Double2 unit_turn() const { return turn * scale; }
 
 private:
     ScaledTurn(Double2 unit, Double2 one) : turn(unit), scale(one) {}
-    static ScaledTurn normalised(const Turn& given);
+    static ScaledTurn normalised(Double2 turn);
 };
+
 /// The cosine and sine of a turn, normalised like `unit(turn)`.
 inline Double2 unit_turn(const Turn& turn) {
-    const Double2 v = lanes::loaded(&turn.cos), squares = lanes::dot(v, v);
-    if (lanes::is_near_one(squares[0])) return v * lanes::inverse_root(squares);
-    const DVec<2> u = unit(vector_of(v));
-    return lanes::double2(u.x, u.y);
+    return ScaledTurn(turn).unit_turn();
 }
 inline LanePose lane_pose(const Pose2& pose) {
     LanePose result;

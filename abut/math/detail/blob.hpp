@@ -30,15 +30,16 @@ requires std::is_arithmetic_v<T> || std::is_enum_v<T> T little(T number) {
     }
 }
 
-/// A checksum over 64-bit words; the last word is padded with zeros. Each step is a bijection of the state, so a single
-/// wrong word is always detected. Word i belongs to the sum of number i modulo `sums`; several sums are faster, because
-/// their steps don't depend on each other.
+/// A step of a checksum or hash over 64-bit words: a bijection of the state, so a single wrong word is always detected.
+inline void add_to_checksum(std::uint64_t& state, std::uint64_t word) {
+    state = (state ^ word) * 0x9e3779b97f4a7c15u;
+    state ^= state >> 32;
+}
+
+/// A checksum over 64-bit words; the last word is padded with zeros. Word i belongs to the sum of number i modulo
+/// `sums`; several sums are faster, because their steps don't depend on each other.
 template <std::size_t sums = 1>
 std::uint64_t blob_checksum(std::span<const std::byte> bytes) {
-    const auto step = [](std::uint64_t& state, std::uint64_t word) {
-        state = (state ^ word) * 0x9e3779b97f4a7c15u;
-        state ^= state >> 32;
-    };
     constexpr std::size_t block = sums * sizeof(std::uint64_t);
     std::array<std::uint64_t, sums> states;
     states.fill(bytes.size());
@@ -47,14 +48,14 @@ std::uint64_t blob_checksum(std::span<const std::byte> bytes) {
         for (std::size_t k = 0; k < sums; ++k) {
             std::uint64_t word = 0;
             std::memcpy(&word, bytes.data() + i + k * sizeof(word), sizeof(word));
-            step(states[k], little(word));
+            add_to_checksum(states[k], little(word));
         }
     for (std::size_t k = 0; i < bytes.size(); i += sizeof(std::uint64_t), ++k) {
         std::uint64_t word = 0;
         std::memcpy(&word, bytes.data() + i, std::min(sizeof(word), bytes.size() - i));
-        step(states[k], little(word));
+        add_to_checksum(states[k], little(word));
     }
-    for (std::size_t k = 1; k < sums; ++k) step(states[0], states[k]);
+    for (std::size_t k = 1; k < sums; ++k) add_to_checksum(states[0], states[k]);
     return states[0];
 }
 

@@ -73,8 +73,10 @@ inline Double2 at(const double* numbers) {
     return result;
 }
 /// From an address that is a multiple of 16.
-inline const Double2& aligned_at(const double* numbers) {
-    return *reinterpret_cast<const Double2*>(numbers);
+inline Double2 aligned_at(const double* numbers) {
+    Double2 result;
+    __builtin_memcpy(&result, __builtin_assume_aligned(numbers, sizeof(result)), sizeof(result));
+    return result;
 }
 inline void put(Double2 v, double* numbers) {
     __builtin_memcpy(numbers, &v, sizeof(v));

@@ -16,6 +16,7 @@ void write(const SignedDistance<D>& distance, Closest<D>& result) {
     result.on_b = to_float(distance.on_b());
 }
 
+/// Its normal is a unit vector all the same.
 template <int D>
 Contact<D> no_contact() {
     Contact<D> result;

@@ -1,8 +1,8 @@
+#include <abut/math/detail/blob.hpp>
 #include <abut/shape/detail/content_hash.hpp>
 
 #include <algorithm>
 #include <bit>
-#include <type_traits>
 #include <variant>
 
 namespace abut::detail {
@@ -10,10 +10,7 @@ namespace {
 
 class ContentHash {
 public:
-    void add(std::uint64_t word) {
-        state_ = (state_ ^ word) * 0x9e3779b97f4a7c15u;
-        state_ ^= state_ >> 32;
-    }
+    void add(std::uint64_t word) { add_to_checksum(state_, word); }
     void add(double number) { add(std::bit_cast<std::uint64_t>(number)); }
     template <int D, class T>
     void add(const glm::vec<D, T>& vector) {

@@ -40,6 +40,8 @@ public:
     }
 
     T* operator->() const { return object_; }
+    /// Whether both own the same object.
+    bool operator==(const CountedPointer&) const = default;
 
 private:
     void add_owner() const {

@@ -1,7 +1,6 @@
 #include <abut/shape/mesh/half_edges.hpp>
 
 #include <algorithm>
-#include <tuple>
 
 namespace abut::detail {
 
@@ -9,20 +8,22 @@ std::vector<HalfEdge> sorted_half_edges(std::span<const glm::uvec3> triangles) {
     // A counting sort by the lower end point leaves short rows to sort.
     std::uint32_t points = 0;
     for (const glm::uvec3& t : triangles) points = std::max({points, t.x + 1, t.y + 1, t.z + 1});
-    std::vector<std::size_t> row(std::size_t{points} + 2, 0);
-    const auto sides = static_cast<std::uint32_t>(3 * triangles.size());
-    for (std::uint32_t side = 0; side < sides; ++side)
-        ++row[std::size_t{std::min(start_of(triangles, side), end_of(triangles, side))} + 2];
+    const auto each_side = [&](const auto& visit) {
+        std::uint32_t side = 0;
+        for (const glm::uvec3& t : triangles)
+            for (const auto& [from, to] : {std::pair(t.x, t.y), std::pair(t.y, t.z), std::pair(t.z, t.x)})
+                visit(HalfEdge{std::min(from, to), std::max(from, to), side++, from < to});
+    };
+    std::vector<std::uint32_t> row(std::size_t{points} + 2, 0);
+    each_side([&](const HalfEdge& edge) { ++row[std::size_t{edge.low} + 2]; });
     for (std::size_t i = 2; i < row.size(); ++i) row[i] += row[i - 1];
-    std::vector<HalfEdge> result(sides);
-    for (std::uint32_t side = 0; side < sides; ++side) {
-        const std::uint32_t from = start_of(triangles, side), to = end_of(triangles, side);
-        result[row[std::size_t{std::min(from, to)} + 1]++] = {std::min(from, to), std::max(from, to), side, from < to};
-    }
+    std::vector<HalfEdge> result(3 * triangles.size());
+    each_side([&](const HalfEdge& edge) { result[row[std::size_t{edge.low} + 1]++] = edge; });
     const auto at = [&](std::size_t i) { return result.begin() + static_cast<std::ptrdiff_t>(i); };
     for (std::size_t i = 0; i + 1 < row.size(); ++i)
         std::sort(at(row[i]), at(row[i + 1]), [](const HalfEdge& a, const HalfEdge& b) {
-            return std::tie(a.high, a.side) < std::tie(b.high, b.side);
+            const auto key = [](const HalfEdge& edge) { return std::uint64_t{edge.high} << 32 | edge.side; };
+            return key(a) < key(b);
         });
     return result;
 }

@@ -48,7 +48,7 @@ void World<D>::reserve_edge_filter() {
 
 /// Lists the partners of the items whose contacts are filtered, among which needs_filter() finds their neighbours.
 template <int D>
-void World<D>::find_neighbours() {
+void World<D>::list_partners() {
     if (!filters_edges_) return;
     for (const IdPair& pair : near_) {
         edges_->add_partner(pair.a.index - 1, pair.b.index - 1);
@@ -269,7 +269,7 @@ bool World<D>::is_covered(const FoundContact& ghost, const Id& item) const {
 
 /// Links the contacts of each item.
 template <int D>
-void World<D>::find_contacts_beside_ghosts() {
+void World<D>::link_contacts() {
     std::vector<std::uint32_t>& last = edges_->last_found;
     last.assign(items_.size(), edges_->none);
     edges_->found_before.clear();
@@ -290,7 +290,7 @@ void World<D>::report_contacts() {
         found.reported = false;
         any_ghost = true;
     }
-    if (any_ghost) find_contacts_beside_ghosts();
+    if (any_ghost) link_contacts();
     for (FoundContact& found : found_) {
         if (found.surface_normal || !found.result.contact || found.is_own_area) continue;
         found.reported = (found.surface_normal.a || !is_covered(found, found.result.a)) &&

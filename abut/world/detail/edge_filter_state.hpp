@@ -7,8 +7,10 @@
 #include <abut/world/detail/view_cache.hpp>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 

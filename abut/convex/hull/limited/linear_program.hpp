@@ -2,7 +2,7 @@
 
 // Linear programming in 3D over a few half-spaces.
 
-#include <abut/convex/hull/highest_plane.hpp>
+#include <abut/math/detail/plane.hpp>
 
 #include <optional>
 #include <span>

@@ -2,6 +2,7 @@
 #include <abut/query/detail/closed_form/closed_form.hpp>
 #include <abut/query/detail/closed_form/placed_polygon2.hpp>
 #include <abut/query/detail/part_pairs.hpp>
+#include <abut/query/detail/write_answer.hpp>
 
 namespace abut::detail {
 namespace {
@@ -169,9 +170,9 @@ namespace {
                                         Contact<2>& result) {
     result = contact(convex_of(a), convex_of(b), options);
 }
-// The results are written in place: a copy right after the writes would stall.
 
-// Each kind of pair has a function of its own, so that each saves only its own registers.
+// The results are written in place: a copy right after the writes would stall. Each kind of pair has a function of its
+// own, so that each saves only its own registers.
 
 [[gnu::noinline]] Closest<2> closest_of_circle(const ShapeRef<2>& a, const ShapeRef<2>& b,
                                                const QueryOptions<2>& options) {
@@ -183,8 +184,7 @@ namespace {
 }
 [[gnu::noinline]] Contact<2> contact_of_circle(const ShapeRef<2>& a, const ShapeRef<2>& b,
                                                const QueryOptions<2>& options) {
-    Contact<2> result;
-    result.normal[0] = 1;
+    Contact<2> result = no_contact<2>();
     const PairAnswer answer = CircleAndShape(a, b).closest(static_cast<double>(options.margin), ContactWriter{result});
     if (answer == PairAnswer::unknown) contact_of_views(a, b, options, result);
     return result;
@@ -209,8 +209,7 @@ namespace {
 }
 [[gnu::noinline]] Contact<2> contact_of_cores(const ShapeRef<2>& a, const ShapeRef<2>& b,
                                               const QueryOptions<2>& options) {
-    Contact<2> result;
-    result.normal[0] = 1;
+    Contact<2> result = no_contact<2>();
     PolygonsOfShapes polygons(a, b);
     ClosestFeatures2 found;
     ContactLanes points;

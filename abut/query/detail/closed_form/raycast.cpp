@@ -72,9 +72,10 @@ bool hit_polygon(const Ray<2>& ray, const ShapeRef<2>& given, std::optional<Hit<
     std::uint32_t left = 0;
     const double* numbers = sides.at(0);
     for (std::uint32_t block = 0; block < sides.count; block += soa_lanes, numbers += soa_rows * soa_lanes) {
-        const Double2 *x = &lanes::aligned_at(numbers), *y = &lanes::aligned_at(numbers + soa_lanes);
-        left |= lanes::signs((line + scaled_y * x[0]) - scaled_x * y[0]) << block;
-        left |= lanes::signs((line + scaled_y * x[1]) - scaled_x * y[1]) << (block + 2);
+        for (std::uint32_t i = 0; i < soa_lanes; i += 2) {
+            const Double2 x = lanes::aligned_at(numbers + i), y = lanes::aligned_at(numbers + soa_lanes + i);
+            left |= lanes::signs((line + scaled_y * x) - scaled_x * y) << (block + i);
+        }
     }
     const std::uint32_t all = (2u << (sides.count - 1)) - 1;
     left &= all;
