@@ -28,7 +28,8 @@ struct BoxClosestPoint {
 };
 
 /// For a point outside. Returns false if it isn't outside, or not finite.
-[[gnu::always_inline]] inline bool nearest_from_outside(const lanes::Double3& half, const lanes::Double3& point, BoxClosestPoint& place) {
+[[gnu::always_inline]] inline bool nearest_from_outside(const lanes::Double3& half, const lanes::Double3& point,
+                                                        BoxClosestPoint& place) {
     using namespace lanes;
     const Double3 inside{lesser(greater(point.xy, -half.xy), half.xy), lesser(greater(point.z, -half.z), half.z)};
     place.offset = point - inside;
