@@ -3,7 +3,7 @@
 
 #include "../oracle/random.hpp"
 #include <abut/convex/pairs/box_triangle.hpp>
-#include <abut/query/detail/surface/surface_normal.hpp>
+#include <abut/query/detail/surface/closest_points.hpp>
 #include <abut/shape/box.hpp>
 #include <abut/shape/placed.hpp>
 #include <abut/shape/triangle.hpp>

@@ -97,7 +97,7 @@ Octagon::Octagon(std::span<const Vec2> points) {
     }
 }
 
-struct Candidate {
+struct KeyedPoint {
     std::uint32_t key;  ///< in the order of x
     NumberedPoint point;
 };
@@ -109,19 +109,19 @@ std::uint32_t key_of(float value) {
 }
 
 /// A stable sort by key.
-void sort(std::vector<Candidate>& candidates) {
-    const auto key = [](const Candidate& candidate) { return candidate.key; };
+void sort(std::vector<KeyedPoint>& candidates) {
+    const auto key = [](const KeyedPoint& candidate) { return candidate.key; };
     if (candidates.size() < worth_counting) {
         std::stable_sort(candidates.begin(), candidates.end(),
-                         [](const Candidate& a, const Candidate& b) { return a.key < b.key; });
+                         [](const KeyedPoint& a, const KeyedPoint& b) { return a.key < b.key; });
         return;
     }
-    std::vector<Candidate> other(candidates.size());
+    std::vector<KeyedPoint> other(candidates.size());
     if (radix_sort(candidates.data(), other.data(), candidates.size(), 32, key) == other.data()) candidates.swap(other);
 }
 
-std::vector<Candidate> candidates_of(std::span<const Vec2> points) {
-    std::vector<Candidate> result;
+std::vector<KeyedPoint> candidates_of(std::span<const Vec2> points) {
+    std::vector<KeyedPoint> result;
     result.reserve(points.size());
     const auto add = [&](std::uint32_t i) { result.push_back({key_of(points[i].x), {points[i], i}}); };
     if (points.size() < worth_filtering) {
@@ -137,7 +137,7 @@ std::vector<Candidate> candidates_of(std::span<const Vec2> points) {
 }  // namespace
 
 std::vector<HullColumn> hull_columns(std::span<const Vec2> points) {
-    std::vector<Candidate> candidates = candidates_of(points);
+    std::vector<KeyedPoint> candidates = candidates_of(points);
     sort(candidates);
     std::vector<HullColumn> result;
     result.reserve(candidates.size());

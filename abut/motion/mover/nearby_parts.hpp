@@ -2,7 +2,7 @@
 
 // A cache of the convex parts in a region of a world, for many queries at the same place. For .cpp files.
 
-#include <abut/query/detail/surface/surface_normal.hpp>
+#include <abut/query/detail/surface/edge_filter.hpp>
 #include <abut/world/world.hpp>
 
 namespace abut::detail {

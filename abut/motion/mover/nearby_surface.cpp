@@ -161,15 +161,16 @@ std::span<const NearContact<D>> NearbySurface<D>::contacts(const DVec<D>& at, do
     const auto closest_points = [this](const DVec<D>& point, double within, ClosestPointVisitor<D> visit) {
         each_closest_point(point, within, visit);
     };
+    const EdgeFilter<D> filter(closest_points, size_);
     parts_.each(box, [&](const PartName& name, const Part<D>& part) {
         if (!passed_.empty() && is_passed(name)) return;
         const std::optional<NearContact<D>> contact = contact_with(name, part);
         if (!contact) return;
-        const SurfacePlace<D> place{contact->point, contact->normal, middle, scale_};
-        if (is_surface_normal<D>(part, place, closest_points))
+        const SurfacePlace<D> place{contact->point, contact->normal, middle};
+        if (filter.is_surface_normal(part, place))
             contacts_.push_back(*contact);
         else if (contact->gap < scale_)
-            ghosts_.push_back({*contact, surface_plane<D>(part, place, closest_points, seen)});
+            ghosts_.push_back({*contact, filter.plane_near(part, place, seen)});
         if (part.is_function()) add_sides(*contact, shape, part.function(), reach);
     });
     resolve_ghosts(shape, reach);
@@ -269,14 +270,10 @@ std::optional<FirstTouch<D>> NearbySurface<D>::first_touch(const DVec<D>& at, co
 
 template <int D>
 std::optional<DVec<D>> NearbySurface<D>::normal_above(const DVec<D>& point, const DVec<D>& up) {
-    constexpr double clear = 0.1;
-    const DVec<D> above = point + up * scale_;
     const auto closest_points = [this](const DVec<D>& from, double within, ClosestPointVisitor<D> visit) {
         each_closest_point(from, within, visit);
     };
-    const ClosestPoint<D> closest = nearest_surface_point<D>(closest_points, above, 2 * scale_, scale_, clear * scale_);
-    if (!(closest.distance > clear * scale_) || !std::isfinite(closest.distance)) return std::nullopt;
-    return normalized(above - closest.point);
+    return EdgeFilter<D>(closest_points, size_).normal_towards(point + up * scale_);
 }
 
 template class NearbySurface<2>;

@@ -84,25 +84,16 @@ bool World<D>::neighbours_changed(const IdPair& pair) {
 template <int D>
 void World<D>::each_closest_point_beside(std::uint32_t slot, std::uint32_t other, const DVec<D>& point, double within,
                                          ClosestPointVisitor<D> visit) {
-    const Vec<D> middle = to_float(point);
-    Aabb<D> near = grown(Aabb<D>{middle, middle}, static_cast<float>(within));
-    const auto narrow = [&](const ClosestPoint<D>& closest) {
-        const double reach = visit(closest);
-        if (reach < within) {
-            const Aabb<D> around = box_around(point, std::max(reach, 0.0));
-            if (abut::contains(near, around)) near = around;
-        }
-        return within = reach;
-    };
+    const Aabb<D> near = box_around(point, within);
     const auto visit_item = [&](std::uint32_t item) {
-        each_closest_point_on<D>(edges_->views.of(item, [&] { return placed(items_[item]); }), point, within, narrow);
+        each_closest_point_on<D>(edges_->views.of(item, [&] { return placed(items_[item]); }), point, within,
+                                 [&](const ClosestPoint<D>& closest) { return within = visit(closest); });
         return within > stop_visiting;
     };
     const auto& list = *edges_->list_of(slot);
     if (list.size <= max_listed_neighbours) {
-        edges_->each_neighbour(list, near, [&](std::uint32_t neighbour) {
-            return neighbour == other || !overlaps_branchless(box(neighbour), near) || visit_item(neighbour);
-        });
+        edges_->each_neighbour(list, near,
+                               [&](std::uint32_t neighbour) { return neighbour == other || visit_item(neighbour); });
         return;
     }
     const Item& item = items_[slot];
@@ -111,10 +102,9 @@ void World<D>::each_closest_point_beside(std::uint32_t slot, std::uint32_t other
         if (within == stop_visiting) return;
         items->phase().each_overlapping(near, [&](std::uint32_t place) {
             const std::uint32_t found = items->slot(place);
-            const Item& candidate = items_[found];
-            if (found == slot || found == other || !passes(found, filter)) return true;
-            if (!overlaps(box(found), near) || !overlaps(box(found), box(slot))) return true;
-            if (candidate.type == ShapeType::half_space && item.type == ShapeType::half_space) return true;
+            if (found == slot || found == other || !passes(found, filter) || !overlaps(box(found), box(slot)))
+                return true;
+            if (items_[found].type == ShapeType::half_space && item.type == ShapeType::half_space) return true;
             return visit_item(found);
         });
     }

@@ -1,177 +1,199 @@
 #include <abut/query/detail/surface/edge_filter.hpp>
-#include <abut/query/detail/surface/surface_manifold.hpp>
 
 namespace abut::detail {
 namespace {
 
-template <int D>
-bool is_composite(const View<D>& view) {
-    return std::holds_alternative<Composite<D>>(view);
-}
+/// A part counts as nearer only by more than this fraction of s.
+constexpr double nearer_margin = 1e-8;
 
-/// Whether every neighbour is farther from p + s n than a part that contains p, by far more than rounding.
-template <int D>
-bool is_alone(const SurfacePlace<D>& place, const EachClosestPoint<D>& neighbours) {
-    bool alone = true;
-    neighbours(place.point + place.normal * place.scale, 1.1 * place.scale, [&](const ClosestPoint<D>&) {
-        alone = false;
-        return stop_visiting;
-    });
-    return alone;
-}
+/// A point nearer to the surface than this fraction of s gives no reliable normal.
+constexpr double min_clearance = 0.1;
 
-/// False for a part that is the whole shape. A flat part uses the centre of its whole shape.
+/// Float coordinates that should be equal differ by up to this fraction of s, which rotates a normal by up to this
+/// angle.
+constexpr double rounding = 1e-2, rounding_angle = 1e-3;
+
+/// The rotation of a face that a point just beside the face may show.
+constexpr double face_angle = 1e-5;
+
+/// If other parts cover the normal, it is tested farther along the part: first at this multiple of s, then at this
+/// factor more each time, up to the centre of the other shape.
+constexpr double first_reach = 3, reach_growth = 8;
+
+/// The limit on these tests. It reaches far beyond the centre of any object for which the shape is a level.
+constexpr int max_reaches = 12;
+
+/// A point inside the part and off all its edges, if the part has an interior.
 template <int D>
-bool has_own_center(const Part<D>& part, const View<D>& shape) {
-    if (!part.is_convex()) return part.is_half_space();
+DVec<D> inner_point(const Part<D>& part, const DVec<D>& probe) {
+    if (!part.is_convex()) return probe;
     const Convex<D>& set = part.convex();
-    const bool flat = set.core == Core::points && set.count <= D && set.radius == 0;
-    return !flat && is_composite(shape);
+    if (set.core != Core::points) return middle_of(part, probe);
+    DVec<D> sum(0.0);
+    for (std::uint32_t i = 0; i < set.count; ++i) sum += DVec<D>(set.vertices()[i]);
+    return set.place.point(sum / static_cast<double>(set.count));
 }
 
-/// A place without the centre.
+/// Whether the part is solid with flat faces, which may be narrow.
 template <int D>
-SurfacePlace<D> point_on(bool on_b, const SignedDistance<D>& distance, double scale) {
-    if (on_b) return {distance.on_b(), -distance.normal, DVec<D>(0.0), scale};
-    return {distance.on_a, distance.normal, DVec<D>(0.0), scale};
+bool has_flat_sides(const Part<D>& part) {
+    if (!part.is_convex() || part.convex().radius > 0 || part.convex().inner_radius > 0) return false;
+    const Convex<D>& set = part.convex();
+    return set.core == Core::box || (set.core == Core::points && set.count > static_cast<std::uint32_t>(D));
 }
 
-/// Writes the distance of a part from the half-space behind a plane; the normal points out of the part. Returns false
-/// for a half-space, which keeps its own contact, and for a distance function, which would need a search.
+/// Whether the part has a face here and not an edge: a step along the part doesn't change the distance. On a solid part
+/// a step sideways, to one side or the other, must not change it either. So the point lies on no edge, and on no face
+/// as narrow as the gap between two pieces that should touch.
 template <int D>
-bool find_distance_to_plane(const Part<D>& part, const SurfacePlane<D>& plane, SignedDistance<D>& distance) {
-    if (!part.is_convex()) return false;
-    distance.normal = -plane.normal;
-    const CorePoint<D> deepest = core_support(part.convex(), distance.normal);
-    distance.on_a = deepest.position + distance.normal * part.convex().radius;
-    distance.distance = dot(plane.normal, distance.on_a - plane.point);
-    distance.corners.count = 1;
-    distance.corners.a[0] = deepest.index;
-    return true;
+bool is_face(const Part<D>& part, const SurfacePlace<D>& place, const DVec<D>& probe, double own, double scale) {
+    const auto is_as_far = [&](const DVec<D>& point) {
+        return std::abs(closest_point_on(part, point).distance - own) <= 3 * face_angle * scale;
+    };
+    const auto has_width = [&](const DVec<D>& point, const DVec<D>& direction) {
+        const DVec<D> step = normalized(direction) * (0.3 * scale);
+        return is_as_far(point + step) || is_as_far(point - step);
+    };
+    const DVec<D> to_center = inner_point(part, probe) - probe;
+    DVec<D> along = to_center - place.normal * dot(to_center, place.normal);
+    DVec<D> farther = probe;
+    const double distance = length(along);
+    if (distance > nearer_margin * scale) {
+        farther += along * (std::min(first_reach * scale, distance) / distance);
+        if (!is_as_far(farther)) return false;
+    } else {
+        along = perpendicular(place.normal);
+    }
+    if (!has_flat_sides(part)) return true;
+    if constexpr (D == 3)
+        if (!has_width(farther, cross(place.normal, along))) return false;
+    return has_width(farther, along);
+}
+
+/// Whether the point is behind a one-sided part. A point within rounding of the part counts as in front.
+template <int D>
+bool is_behind(const ClosestPoint<D>& closest, double scale) {
+    return closest.behind > rounding * scale;
+}
+
+/// Orders equally near points, so that the order of the visits has no influence.
+template <int D>
+bool is_before(const DVec<D>& a, const DVec<D>& b) {
+    for (int i = 0; i < D; ++i)
+        if (a[i] != b[i]) return a[i] < b[i];
+    return false;
 }
 
 }  // namespace
 
-/// The centre of the bounding box of a shape, computed on the first call; the origin for a half-space.
+/// Whether the part, at distance `own` from p + s n, is the nearest one. Where rounding leaves that open, a face is and
+/// an edge is not.
 template <int D>
-const DVec<D>& EdgeFilter<D>::Center::get() const {
-    if (!found_)
-        found_ = std::holds_alternative<HalfSpaceView<D>>(view_) ? DVec<D>(0.0) : DVec<D>(center(bounds(view_)));
-    return *found_;
+bool EdgeFilter<D>::is_nearest_part(const Part<D>& part, const SurfacePlace<D>& place, const DVec<D>& probe,
+                                    double own) const {
+    const double nearer = own - nearer_margin * scale_ - 1e-14 * largest(probe);
+    const double certainly_nearer = own - rounding * scale_;
+    bool covered = false, is_uncertain = false;
+    surface_(probe, own + rounding * scale_, [&](const ClosestPoint<D>& closest) {
+        const double still_relevant = own + rounding * scale_;
+        if (is_behind(closest, scale_)) return still_relevant;
+        covered = covered || closest.distance < certainly_nearer;
+        if (covered) return stop_visiting;
+        // This part has another normal and is about as near.
+        const DVec<D> offset = probe - closest.point;
+        const DVec<D> aside = offset - place.normal * dot(offset, place.normal);
+        is_uncertain = is_uncertain || closest.distance < nearer || length(aside) > rounding_angle * scale_;
+        return still_relevant;
+    });
+    return !covered && (!is_uncertain || is_face(part, place, probe, own, scale_));
 }
 
 template <int D>
-EdgeFilter<D>::EdgeFilter(const View<D>& a, const View<D>& b, const NeighbourSurfaces<D>& neighbours)
-    : a_(a),
-      b_(b),
-      neighbours_(neighbours),
-      size_a_(detail::size(a)),
-      size_b_(detail::size(b)),
-      scale_(surface_probe_scale * size()),
-      are_composite_(is_composite(a) && is_composite(b)),
-      center_of_a_(a),
-      center_of_b_(b) {}
-
-/// The point, and the centre of the other shape or part.
-template <int D>
-SurfacePlace<D> EdgeFilter<D>::place_on(Side side, const Part<D>& other_part, const SignedDistance<D>& distance) const {
-    const bool on_b = side == Side::b;
-    SurfacePlace<D> place = point_on(on_b, distance, scale_);
-    place.center = has_own_center(other_part, on_b ? a_ : b_) ? middle_of(other_part, place.point)
-                                                              : (on_b ? center_of_a_ : center_of_b_).get();
-    return place;
-}
-
-/// The closest points on a shape and its neighbours.
-template <int D>
-auto EdgeFilter<D>::closest_points_on(Side side) const {
-    const View<D>& view = side == Side::b ? b_ : a_;
-    const EachClosestPoint<D>* const neighbours = side == Side::b ? neighbours_.of_a : neighbours_.of_b;
-    const PartCache<D>* const cache = is_composite(view) ? cache_ : nullptr;
-    return [&view, neighbours, cache](const DVec<D>& point, double within, ClosestPointVisitor<D> visit) {
-        double reach_left = within;
-        const auto visit_own = [&](const ClosestPoint<D>& closest) { return reach_left = visit(closest); };
-        if (cache == nullptr || !cache->each_closest_point(point, within, visit_own))
-            each_closest_point_on<D>(view, point, within, visit_own);
-        if (neighbours != nullptr && reach_left > stop_visiting) (*neighbours)(point, reach_left, visit);
-    };
-}
-
-/// Whether the normal of a part on this side is a surface normal. The points of the manifold lie midway between two
-/// surfaces; half their depth along the normal moves them to this one. Mostly no other part is near one of the deepest
-/// points, and a cheap test finds that out first; the other shape's centre costs more.
-template <int D>
-bool EdgeFilter<D>::is_surface_normal_of(Side side, const Part<D>& part, const Part<D>& other_part,
-                                         const SignedDistance<D>& distance,
-                                         FunctionRef<const Manifold<D>&()> manifold_of) const {
-    const bool on_b = side == Side::b, is_one_part = !is_composite(on_b ? b_ : a_);
-    const EachClosestPoint<D>* const neighbours = on_b ? neighbours_.of_a : neighbours_.of_b;
-    SurfacePlace<D> place = point_on(on_b, distance, scale_);
-    if (is_one_part && is_alone(place, *neighbours)) return true;
-    // Without a face along the normal the area is one point.
-    const bool may_have_area =
-        FaceNormals<D>(part).may_face(distance.normal) || FaceNormals<D>(other_part).may_face(distance.normal);
-    Manifold<D> no_area;
-    const Manifold<D>& manifold = may_have_area ? manifold_of() : no_area;
-    DVec<D> sum(0.0);
-    for (std::size_t i = 0; i < manifold.count; ++i) {
-        const ManifoldPoint<D>& point = manifold.points[i];
-        const DVec<D> on_surface = point.position + place.normal * (0.5 * point.depth);
-        sum += on_surface;
-        if (!is_one_part || manifold.count == 1 || point.depth < -distance.distance - deepest_tolerance * scale_)
-            continue;
-        place.point = on_surface;
-        if (is_alone(place, *neighbours)) return true;
+bool EdgeFilter<D>::is_surface_normal(const Part<D>& part, const SurfacePlace<D>& place) const {
+    const DVec<D> probe = place.point + place.normal * scale_;
+    const double own = closest_point_on(part, probe).distance;
+    if (is_nearest_part(part, place, probe, own)) return true;
+    const DVec<D> to_center = place.center - place.point;
+    const DVec<D> along = to_center - place.normal * dot(to_center, place.normal);
+    const double distance = length(along);
+    if (!(distance > scale_)) return false;
+    double reach = first_reach * scale_;
+    for (int i = 0; i < max_reaches; ++i, reach *= reach_growth) {
+        const DVec<D> farther = probe + along * (std::min(reach, distance) / distance);
+        const double own_farther = closest_point_on(part, farther).distance;
+        // The surface bends: the normal changes here.
+        if (!(std::abs(own_farther - own) <= nearer_margin * scale_)) return false;
+        if (is_nearest_part(part, place, farther, own_farther)) return true;
+        if (!(reach < distance)) return false;
     }
-    place = place_on(side, other_part, distance);
-    const auto each_closest_point = closest_points_on(side);
-    if (manifold.count > 1) {
-        SurfacePlace<D> center = place;
-        center.point = sum / static_cast<double>(manifold.count);
-        if (is_one_part && is_alone(center, *neighbours) ? has_normal(part, center)
-                                                         : is_surface_normal_at<D>(part, center, each_closest_point))
-            return true;
-    }
-    return is_surface_normal<D>(part, place, each_closest_point);
+    return false;
 }
 
 template <int D>
-detail::SurfaceNormalFlags EdgeFilter<D>::surface_normal_flags(const Part<D>& part_a, const Part<D>& part_b,
-                                                               const SignedDistance<D>& distance,
-                                                               FunctionRef<const Manifold<D>&()> manifold_of) const {
-    detail::SurfaceNormalFlags result;
-    if (is_composite(b_) || neighbours_.of_a != nullptr)
-        result.a = is_surface_normal_of(Side::b, part_b, part_a, distance, manifold_of);
-    if (is_composite(a_) || neighbours_.of_b != nullptr)
-        result.b = is_surface_normal_of(Side::a, part_a, part_b, distance, manifold_of);
+bool EdgeFilter<D>::has_normal(const Part<D>& part, const SurfacePlace<D>& place) const {
+    return closest_point_on(part, place.point + place.normal * scale_).distance > (1 - rounding) * scale_;
+}
+
+template <int D>
+bool EdgeFilter<D>::is_surface_normal_at(const Part<D>& part, const SurfacePlace<D>& place) const {
+    const DVec<D> probe = place.point + place.normal * scale_;
+    const double own = closest_point_on(part, probe).distance;
+    return own > (1 - rounding) * scale_ && is_nearest_part(part, place, probe, own);
+}
+
+/// The nearest of all closest points, whatever the order of the visits; the query point must not be behind its part.
+/// The distance is infinite if all parts are farther than `within`. A point no farther than `sufficient` may be
+/// returned although another is nearer.
+template <int D>
+ClosestPoint<D> EdgeFilter<D>::nearest_to(const DVec<D>& point, double within, double sufficient) const {
+    ClosestPoint<D> result;
+    surface_(point, within, [&](const ClosestPoint<D>& closest) {
+        const bool is_farther = is_behind(closest, scale_) || closest.distance > result.distance;
+        if (!is_farther && (closest.distance < result.distance || is_before(closest.point, result.point)))
+            result = closest;
+        return result.distance <= sufficient ? stop_visiting : std::min(within, result.distance);
+    });
     return result;
 }
 
-/// A plane of the surface on this side near the place of the contact.
 template <int D>
-std::optional<SurfacePlane<D>> EdgeFilter<D>::plane_of(Side side, const Part<D>& part, const Part<D>& other_part,
-                                                       const SignedDistance<D>& distance) {
-    const bool on_b = side == Side::b, has_own = has_own_center(other_part, on_b ? a_ : b_);
-    NearestToCenter<D> nearest;
-    NearestToCenter<D>* const shared = on_b ? neighbours_.nearest_to_a : neighbours_.nearest_to_b;
-    NearestToCenter<D>& of_shape = shared != nullptr ? *shared : on_b ? nearest_to_a_ : nearest_to_b_;
-    return surface_plane<D>(part, place_on(side, other_part, distance), closest_points_on(side),
-                            has_own ? nearest : of_shape);
+ClosestPoint<D> EdgeFilter<D>::nearest_around(const DVec<D>& point) const {
+    return nearest_to(point, 2 * scale_, min_clearance * scale_);
 }
 
 template <int D>
-bool EdgeFilter<D>::replace(const Part<D>& part_a, const Part<D>& part_b, const detail::SurfaceNormalFlags& flags,
-                            SignedDistance<D>& distance) {
-    SignedDistance<D> for_a = distance, for_b = flipped(distance);
-    const auto find = [&](Side side, const Part<D>& part, const Part<D>& other, SignedDistance<D>& found) {
-        const std::optional<SurfacePlane<D>> plane = plane_of(side, part, other, distance);
-        return plane && find_distance_to_plane(other, *plane, found);
+bool EdgeFilter<D>::has_plane(const ClosestPoint<D>& closest) const {
+    return closest.distance > min_clearance * scale_ && std::isfinite(closest.distance);
+}
+
+template <int D>
+std::optional<DVec<D>> EdgeFilter<D>::normal_towards(const DVec<D>& point) const {
+    const ClosestPoint<D> closest = nearest_around(point);
+    if (!has_plane(closest)) return std::nullopt;
+    return normalized(point - closest.point);
+}
+
+template <int D>
+std::optional<SurfacePlane<D>> EdgeFilter<D>::plane_near(const Part<D>& part, const SurfacePlace<D>& place,
+                                                         NearestToCenter<D>& nearest) const {
+    const auto plane_at = [&](const DVec<D>& point, ClosestPoint<D> closest) -> std::optional<SurfacePlane<D>> {
+        if (!has_plane(closest)) return std::nullopt;
+        const ClosestPoint<D> own = closest_point_on(part, point);
+        const bool is_nearest = own.distance <= closest.distance + nearer_margin * scale_;
+        if (is_nearest && !is_behind(own, scale_)) closest = own;
+        return SurfacePlane<D>{normalized(point - closest.point), closest.point};
     };
-    const bool has_a = (are_composite_ ? !a_is_larger() : !flags.a) && find(Side::b, part_b, part_a, for_a);
-    const bool has_b = (are_composite_ ? size_a_ >= size_b_ : !flags.b) && find(Side::a, part_a, part_b, for_b);
-    if (has_b) flip(for_b);
-    if (has_a || has_b) distance = has_a && (!has_b || for_a.distance >= for_b.distance) ? for_a : for_b;
-    return has_a || has_b;
+    const DVec<D> to_center = place.center - place.point;
+    const double distance = length(to_center);
+    if (!(distance > scale_)) return std::nullopt;
+    const DVec<D> probe = place.point + to_center * (scale_ / distance);
+    if (const auto plane = plane_at(probe, nearest_around(probe))) return plane;
+    const double within = 1.001 * distance;
+    if (!std::isfinite(nearest.closest.distance) && within > nearest.within) {
+        nearest.closest = nearest_to(place.center, within, 0);
+        nearest.within = within;
+    }
+    return plane_at(place.center, nearest.closest.distance <= within ? nearest.closest : ClosestPoint<D>());
 }
 
 template class EdgeFilter<2>;

@@ -1,81 +1,101 @@
 #pragma once
 
-// The filter of internal edges (ghost collisions): contacts of parts with the normals of the whole surfaces. For .cpp
-// files.
+// The filter of internal edges (ghost collisions): the contacts of a shape with the parts of a surface. For .cpp files.
+//
+// A floor of tiles has internal edges, where tile meets tile. A shape that slides over the floor may touch such an
+// edge. The normal of the edge is right for the tile alone, but on the floor as a whole the shape would catch there.
+// The surface of a union has at a point p exactly the normals n for which
+//
+//    p is the point of the union nearest to p + s n,    s small,
+//
+// so a normal of one part is a surface normal iff no other part is nearer to p + s n. This takes no adjacency: the
+// parts may be separate shapes of a world, with gaps, T-junctions and small differences in height. An edge lower than
+// about s is no edge.
+//
+// Other engines know the edges of one mesh, or its triangles near: the ghost vertices of Box2D's chains, Bullet's
+// btInternalEdgeUtility and Jolt's InternalEdgeRemovingCollector.
 
-#include <abut/query/contact.hpp>
-#include <abut/query/detail/surface/part_cache.hpp>
-#include <abut/query/detail/surface/surface_normal_flags.hpp>
+#include <abut/query/detail/surface/closest_points.hpp>
+
+#include <optional>
 
 namespace abut::detail {
 
-/// The surfaces that continue each of two shapes; null: none. The functions must outlive this.
+/// s, as a fraction of the size of the smaller shape; the other one counts as the level.
+inline constexpr double surface_probe_scale = 1e-3;
+
+/// A contact point counts as one of the deepest if it is shallower by at most this fraction of s.
+inline constexpr double deepest_tolerance = 1e-2;
+
+/// A place on the surface of a part: the point, the part's outward unit normal, and the centre of the other shape.
 template <int D>
-struct NeighbourSurfaces {
-    const EachClosestPoint<D>* of_a = nullptr;  ///< what A touches beside B
-    const EachClosestPoint<D>* of_b = nullptr;  ///< what B touches beside A
-    /// The points nearest to the centres of A and B, shared by all pairs of an item that is no composite shape; null:
-    /// they are found for each pair.
-    NearestToCenter<D>*nearest_to_a = nullptr, *nearest_to_b = nullptr;
+struct SurfacePlace {
+    DVec<D> point, normal, center;
 };
 
-/// Filters contacts on internal edges between two shapes, to which it refers. The surface of a part is that of its
-/// whole composite shape, with the neighbours.
+/// A tangent plane of the union.
+template <int D>
+struct SurfacePlane {
+    DVec<D> normal, point;
+};
+
+/// The point of a surface nearest to the centre of the shape that touches it. It is the same for all places, and found
+/// on the first call.
+template <int D>
+struct NearestToCenter {
+    ClosestPoint<D> closest;
+    double within = -1;  ///< without a point, none is this near
+};
+
+/// The filter of a shape that touches a surface.
 template <int D>
 class EdgeFilter {
 public:
-    EdgeFilter(const View<D>& a, const View<D>& b, const NeighbourSurfaces<D>& neighbours = {});
+    /// `surface` visits the closest points of all parts of the surface, and must outlive this. The size is that of the
+    /// smaller one of the shape and what it touches.
+    EdgeFilter(EachClosestPoint<D> surface, double size) : surface_(surface), scale_(surface_probe_scale * size) {}
 
-    /// From now on queries try this cache of the composite shape's parts first.
-    void use_cache(const PartCache<D>& cache) { cache_ = &cache; }
-    /// Most surface queries stay this near to the contact.
-    double reach() const { return 5 * scale_; }
+    /// s
+    double scale() const { return scale_; }
 
-    /// The size of the smaller shape.
-    double size() const { return std::min(size_a_, size_b_); }
-    bool a_is_larger() const { return size_a_ > size_b_; }
+    /// Whether the normal is one of the union's. A one-sided part covers nothing behind it. In a corner, where other
+    /// parts are as near or contain the point, the test repeats farther along the part while the normal stays the same,
+    /// up to the centre of the other shape. An edge that stands out by no more than rounding, 1e-5 of the size, is no
+    /// edge.
+    bool is_surface_normal(const Part<D>& part, const SurfacePlace<D>& place) const;
+    /// The same without the tests farther along the part, for a point near its surface.
+    bool is_surface_normal_at(const Part<D>& part, const SurfacePlace<D>& place) const;
+    /// Whether the part itself has this normal at a point near its surface.
+    bool has_normal(const Part<D>& part, const SurfacePlace<D>& place) const;
 
-    /// Tests the normal between two parts in the centre of their contact area and at the deepest point. manifold_of()
-    /// returns that area.
-    detail::SurfaceNormalFlags surface_normal_flags(const Part<D>& part_a, const Part<D>& part_b,
-                                                    const SignedDistance<D>& distance,
-                                                    FunctionRef<const Manifold<D>&()> manifold_of) const;
-
-    /// Replaces a distance whose normal is no surface normal by that from a plane of the surface. Of two composite
-    /// shapes the larger counts as the level. Of two such planes it takes the one that separates sooner, so that
-    /// swapping A and B changes nothing. Returns false, and changes nothing, if there is no plane.
-    bool replace(const Part<D>& part_a, const Part<D>& part_b, const detail::SurfaceNormalFlags& flags,
-                 SignedDistance<D>& distance);
+    /// A plane of the surface near a place whose normal is no surface normal. The search starts at the place and goes
+    /// towards the centre of the other shape, which came from there. Of surfaces equally near, the part's own wins.
+    /// There is none if everything up to the centre is inside.
+    std::optional<SurfacePlane<D>> plane_near(const Part<D>& part, const SurfacePlace<D>& place,
+                                              NearestToCenter<D>& nearest) const;
+    /// The normal of the surface nearest to a point that is about s away from it, towards the point; none if the point
+    /// is inside or farther.
+    std::optional<DVec<D>> normal_towards(const DVec<D>& point) const;
 
 private:
-    class Center {
-    public:
-        explicit Center(const View<D>& view) : view_(view) {}
-        const DVec<D>& get() const;
+    bool is_nearest_part(const Part<D>& part, const SurfacePlace<D>& place, const DVec<D>& probe, double own) const;
+    ClosestPoint<D> nearest_to(const DVec<D>& point, double within, double sufficient) const;
+    ClosestPoint<D> nearest_around(const DVec<D>& point) const;
+    bool has_plane(const ClosestPoint<D>& closest) const;
 
-    private:
-        const View<D>& view_;
-        mutable std::optional<DVec<D>> found_;
-    };
-
-    /// One of the two shapes, and the other one.
-    enum class Side : bool { a, b };
-
-    SurfacePlace<D> place_on(Side side, const Part<D>& other_part, const SignedDistance<D>& distance) const;
-    auto closest_points_on(Side side) const;
-    bool is_surface_normal_of(Side side, const Part<D>& part, const Part<D>& other_part,
-                              const SignedDistance<D>& distance, FunctionRef<const Manifold<D>&()> manifold_of) const;
-    std::optional<SurfacePlane<D>> plane_of(Side side, const Part<D>& part, const Part<D>& other_part,
-                                            const SignedDistance<D>& distance);
-
-    const View<D>&a_, &b_;
-    NeighbourSurfaces<D> neighbours_;
-    double size_a_, size_b_, scale_;
-    bool are_composite_;  ///< both shapes: the larger one is the level
-    Center center_of_a_, center_of_b_;
-    const PartCache<D>* cache_ = nullptr;
-    NearestToCenter<D> nearest_to_a_, nearest_to_b_;
+    EachClosestPoint<D> surface_;
+    double scale_;
 };
+
+/// Whether a contact of this normal and depth makes another one superfluous: the normals are about equal, and for an
+/// object of this size the other one is hardly deeper. A contact with a substitute normal is left out where another
+/// contact covers it.
+template <int D>
+bool covers_contact(const DVec<D>& normal, double depth, const DVec<D>& other, double other_depth, double size) {
+    const double cosine = dot(normal, other);
+    if (cosine < 0.99) return false;
+    return depth > other_depth - size * (surface_probe_scale + std::sqrt(std::max(0.0, 2 * (1 - cosine))));
+}
 
 extern template class EdgeFilter<2>;
 extern template class EdgeFilter<3>;

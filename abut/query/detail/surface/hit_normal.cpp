@@ -15,19 +15,16 @@ template <int D>
 void filter_hit_normal(const MoverAtHit<D>& mover, const View<D>& shape, EachClosestPoint<D> each_closest_point,
                        Hit<D>& hit) {
     if (!std::isfinite(mover.size)) return;
-    const SurfacePlace<D> place{DVec<D>(hit.point), DVec<D>(hit.normal), mover.center,
-                                surface_probe_scale * mover.size};
-    detail::for_each_part(shape, round_points<D>({hit.point}, 0), static_cast<float>(place.scale),
-                          [&](const Part<D>& part, std::uint32_t index) {
-                              if (index != hit.feature.part) return true;
-                              if (is_surface_normal<D>(part, place, each_closest_point)) return false;
-                              NearestToCenter<D> nearest;
-                              const std::optional<SurfacePlane<D>> plane =
-                                  surface_plane<D>(part, place, each_closest_point, nearest);
-                              if (plane && dot(plane->normal, mover.direction) < 0)
-                                  hit.normal = to_float(plane->normal);
-                              return false;
-                          });
+    const EdgeFilter<D> filter(each_closest_point, mover.size);
+    const SurfacePlace<D> place{DVec<D>(hit.point), DVec<D>(hit.normal), mover.center};
+    for_each_part(shape, box_around(place.point, filter.scale()), [&](const Part<D>& part, std::uint32_t index) {
+        if (index != hit.feature.part) return true;
+        if (filter.is_surface_normal(part, place)) return false;
+        NearestToCenter<D> nearest;
+        const std::optional<SurfacePlane<D>> plane = filter.plane_near(part, place, nearest);
+        if (plane && dot(plane->normal, mover.direction) < 0) hit.normal = to_float(plane->normal);
+        return false;
+    });
 }
 
 #define ABUT_INSTANTIATE(D)                                                                                    \

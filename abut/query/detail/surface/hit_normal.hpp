@@ -3,7 +3,7 @@
 // Filters internal edges out of the normals of hits. For .cpp files.
 
 #include <abut/math/detail/rigid_path.hpp>
-#include <abut/query/detail/surface/surface_normal.hpp>
+#include <abut/query/detail/surface/edge_filter.hpp>
 #include <abut/query/hit.hpp>
 
 namespace abut::detail {

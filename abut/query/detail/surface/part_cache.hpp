@@ -4,7 +4,7 @@
 
 #include <abut/broad_phase/detail/box_overlaps.hpp>
 #include <abut/math/detail/uninitialized_array.hpp>
-#include <abut/query/detail/surface/surface_normal.hpp>
+#include <abut/query/detail/surface/closest_points.hpp>
 
 #include <bit>
 

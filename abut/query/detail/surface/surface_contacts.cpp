@@ -189,7 +189,7 @@ private:
 
     static constexpr std::size_t max_pairs = 64, max_old_planes = 32, max_manifolds = 8;
 
-    double step() const { return surface_probe_scale * filter_.size(); }
+    double step() const { return filter_.scale(); }
 
     SurfaceNormalFlags flags_of(const Part<D>& part_a, const Part<D>& part_b, const SignedDistance<D>& distance) const {
         PartContact<D> found{distance, {}};
@@ -442,7 +442,7 @@ private:
 
     double margin_;
     SearchOptions<D> search_;
-    EdgeFilter<D> filter_;
+    PairEdgeFilter<D> filter_;
     ManifoldNames names_;
     PartPairs<D> pairs_;
     int round_ = 0;
@@ -481,7 +481,7 @@ SurfaceContact<D> filtered_contact(const View<D>& a, const View<D>& b, const Par
                                    const Contact<D>& contact, const NeighbourSurfaces<D>& neighbours, double margin) {
     SurfaceContact<D> result{contact, {}, {}, 0};
     const Part<D> part_a = single_part(a), part_b = single_part(b);
-    EdgeFilter<D> filter(a, b, neighbours);
+    PairEdgeFilter<D> filter(a, b, neighbours);
     const SurfaceNormalFlags flags =
         filter.surface_normal_flags(part_a, part_b, own.distance, [&]() -> const Manifold<D>& { return own.manifold; });
     if (flags) return result;
@@ -494,7 +494,7 @@ SurfaceContact<D> filtered_contact(const View<D>& a, const View<D>& b, const Par
     result.surface_normals = flags;
     result.size = filter.size();
     if (!is_replaced) return result;
-    const double step = surface_probe_scale * filter.size();
+    const double step = filter.scale();
     const std::optional<DVec<D>> face = face_normal<D>(part_a, part_b, flags, {pair.distance, step});
     name_features(part_a, part_b, pair.distance, 0, 0, result.contact);
     PairDistance<D> area = pair;

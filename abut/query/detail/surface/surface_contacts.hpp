@@ -3,7 +3,7 @@
 // The contacts of two shapes as manifolds of their whole surfaces: contacts of parts that are on one plane are joined,
 // and internal edges are filtered (ghost collisions). For .cpp files.
 
-#include <abut/query/detail/surface/edge_filter.hpp>
+#include <abut/query/detail/surface/pair_edge_filter.hpp>
 #include <abut/query/detail/surface/surface_manifold.hpp>
 
 namespace abut::detail {

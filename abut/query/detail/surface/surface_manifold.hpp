@@ -4,7 +4,7 @@
 // there. For .cpp files.
 
 #include <abut/query/contact.hpp>
-#include <abut/query/detail/surface/surface_normal.hpp>
+#include <abut/query/detail/surface/edge_filter.hpp>
 #include <abut/query/detail/surface/surface_normal_flags.hpp>
 
 namespace abut::detail {

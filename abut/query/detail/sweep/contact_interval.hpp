@@ -12,7 +12,7 @@
 
 #include <abut/math/detail/rigid_path.hpp>
 #include <abut/query/detail/part_pairs.hpp>
-#include <abut/query/detail/surface/surface_normal.hpp>
+#include <abut/query/detail/surface/closest_points.hpp>
 
 #include <limits>
 
