@@ -58,9 +58,9 @@ Contact<D> contact(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>
 template <int D>
 Contact<D> contact(const View<D>& a, const View<D>& b, const QueryOptions<D>& options) {
     Contact<D> result = no_contact<D>();
+    if (!detail::is_valid_pair(a, b)) return result;
     if constexpr (D == 3)
-        if (has_solid(a, b) && detail::is_valid_pair(a, b) && find_solid_contact(a, b, options.margin, result))
-            return result;
+        if (has_solid(a, b) && find_solid_contact(a, b, options.margin, result)) return result;
     DeepestParts<D> deepest;
     if (!find_deepest_parts(a, b, options, deepest, result) || !has_parts(a, b) ||
         whole_contact(a, b, options, deepest, are_meshes(a, b), result))
@@ -79,7 +79,6 @@ namespace abut::detail {
 template <int D>
 bool find_deepest_parts(const View<D>& a, const View<D>& b, const QueryOptions<D>& options, DeepestParts<D>& deepest,
                         Contact<D>& contact) {
-    if (!detail::is_valid_pair(a, b)) return false;
     const auto *convex_a = std::get_if<Convex<D>>(&a), *convex_b = std::get_if<Convex<D>>(&b);
     if (convex_a != nullptr && convex_b != nullptr)
         return answer(*convex_a, *convex_b, options, deepest.contact, contact);

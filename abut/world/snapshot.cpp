@@ -391,7 +391,7 @@ std::optional<Problem> World<D>::restore(std::span<const std::byte> bytes) {
     }
     near_.clear();
     found_.clear();
-    contacts_.clear();
+    are_all_reported_ = true;
     impacts_.clear();
     touching_.assign(snapshot.touching.begin(), snapshot.touching.end());
     passed_.assign(snapshot.passed.begin(), snapshot.passed.end());

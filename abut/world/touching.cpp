@@ -10,7 +10,7 @@ namespace {
 
 /// The entry of a pair in a list sorted by pairs; null if there is none.
 template <class Entry>
-const Entry* entry_of(const std::vector<Entry>& list, const IdPair& pair) {
+const Entry* entry_of(std::span<const Entry> list, const IdPair& pair) {
     const IdPair wanted{std::min(pair.a, pair.b), std::max(pair.a, pair.b)};
     const auto place = std::lower_bound(list.begin(), list.end(), wanted, [](const Entry& entry, const IdPair& p) {
         return IdPair{entry.a, entry.b} < p;
@@ -39,13 +39,13 @@ std::vector<Id> World<D>::touching(Id id) const {
 
 template <int D>
 Contact<D> World<D>::contact(const IdPair& pair) const {
-    const WorldContact<D>* found = entry_of(contacts_, pair);
+    const WorldContact<D>* found = entry_of(contacts(), pair);
     return found != nullptr ? found->contact : Contact<D>{};
 }
 
 template <int D>
 std::optional<Hit<D>> World<D>::impact(const IdPair& pair) const {
-    const WorldImpact<D>* found = entry_of(impacts_, pair);
+    const WorldImpact<D>* found = entry_of(std::span<const WorldImpact<D>>(impacts_), pair);
     return found != nullptr ? std::optional(found->hit) : std::nullopt;
 }
 

@@ -1,10 +1,12 @@
 // The update: boxes, near pairs, contacts and events.
 
+#include <abut/math/detail/radix_sort.hpp>
 #include <abut/query/overlaps.hpp>
 #include <abut/world/detail/edge_filter_state.hpp>
 #include <abut/world/world.hpp>
 
 #include <algorithm>
+#include <bit>
 
 namespace abut {
 
@@ -30,10 +32,33 @@ void World<D>::add_if_near(std::uint32_t slot, std::uint32_t other) {
     const Item &a = items_[slot], &b = items_[other];
     if ((a.layers & b.mask) == 0 || (b.layers & a.mask) == 0) return;
     if (a.type == detail::ShapeType::half_space && b.type == detail::ShapeType::half_space) return;
-    near_.push_back({id_of(std::min(slot, other)), id_of(std::max(slot, other))});
+    near_keys_.push_back(std::uint64_t{std::min(slot, other)} << slot_bits() | std::max(slot, other));
     if (!filters_edges_) return;
     edges_->list_of_slot[slot] += a.fixed ? 0 : 1;
     edges_->list_of_slot[other] += b.fixed ? 0 : 1;
+}
+
+/// The number of bits of a slot in near_keys_.
+template <int D>
+int World<D>::slot_bits() const {
+    return static_cast<int>(std::bit_width(items_.size()));
+}
+
+/// Writes the near pairs in the order of their ids.
+template <int D>
+void World<D>::sort_near() {
+    sorted_near_keys_.reserve(near_keys_.capacity());
+    sorted_near_keys_.resize(near_keys_.size());
+    const int bits = slot_bits();
+    const std::uint64_t* const sorted =
+        detail::radix_sort(near_keys_.data(), sorted_near_keys_.data(), near_keys_.size(), 2 * bits,
+                           [](std::uint64_t key) { return key; });
+    std::swap(near_, last_near_);
+    near_.resize(near_keys_.size());
+    const std::uint64_t low_bits = (std::uint64_t{1} << bits) - 1;
+    for (std::size_t i = 0; i < near_.size(); ++i)
+        near_[i] = {id_of(static_cast<std::uint32_t>(sorted[i] >> bits)),
+                    id_of(static_cast<std::uint32_t>(sorted[i] & low_bits))};
 }
 
 /// Tests a near pair. If neither item changed, the last result is repeated.
@@ -63,12 +88,16 @@ template <int D>
 void World<D>::repeat_last(const IdPair& pair) {
     if (!std::binary_search(last_touching_.begin(), last_touching_.end(), pair)) return;
     touching_.push_back(pair);
-    const std::span<const FoundContact> last = last_contacts(pair);
-    if (last.empty()) return;
-    if (neighbours_changed(pair))
+    const auto [first, end] = last_contacts(pair);
+    if (first == end) return;
+    if (neighbours_changed(pair)) {
         find_contact(pair);
-    else
-        found_.insert(found_.end(), last.begin(), last.end());
+        return;
+    }
+    for (std::size_t i = first; i < end; ++i) {
+        found_.contacts.push_back(last_found_.contacts[i]);
+        found_.states.push_back(last_found_.states[i]);
+    }
 }
 
 template <int D>
@@ -90,7 +119,7 @@ template <int D>
 bool World<D>::test_shapes(const IdPair& pair) {
     const Item &a = items_[pair.a.index - 1], &b = items_[pair.b.index - 1];
     if (a.sensor || b.sensor) {
-        if (!overlaps(first_placed(pair.a.index - 1), placed(b))) return false;
+        if (!overlaps(first_placed(pair.a.index - 1), placed_view(pair.b.index - 1))) return false;
     } else if (!find_contact(pair)) {
         return false;
     }
@@ -151,8 +180,7 @@ Events World<D>::find_events() {
     widen_boxes();
     refresh_boxes();
 
-    std::swap(near_, last_near_);
-    near_.clear();
+    near_keys_.clear();
     if (filters_edges_) {
         if (edges_ == nullptr) edges_.reset(new detail::EdgeFilterState<D>());
         edges_->begin_update(items_.size());
@@ -161,16 +189,16 @@ Events World<D>::find_events() {
         [this](std::uint32_t i, std::uint32_t j) { add_if_near(moving_.slot(i), moving_.slot(j)); });
     moving_.phase().each_overlapping_pair(
         fixed_.phase(), [this](std::uint32_t i, std::uint32_t j) { add_if_near(moving_.slot(i), fixed_.slot(j)); });
-    std::sort(near_.begin(), near_.end());
+    sort_near();
 
     std::swap(touching_, last_touching_);
     std::swap(found_, last_found_);
     std::swap(passed_, last_passed_);
     touching_.clear();
     found_.clear();
-    contacts_.clear();
     passed_.clear();
     impacts_.clear();
+    views_.clear();
     first_.slot = none;
     counts_ = {near_.size(), 0, 0};
     list_partners();
@@ -183,8 +211,8 @@ Events World<D>::find_events() {
     for (std::vector<IdPair>* list : {&passed_, &last_passed_}) list->reserve(impacts_.capacity());
     for (std::vector<IdPair>* list : {&began_, &ended_}) list->reserve(capacity + impacts_.capacity());
     fractions_.reserve(began_.capacity());
-    last_found_.reserve(found_.capacity());
-    contacts_.reserve(found_.capacity());
+    last_found_.reserve(found_.contacts.capacity());
+    contacts_.reserve(found_.contacts.capacity());
     last_near_.reserve(near_.capacity());
     reserve_edge_filter();
     compare_with_last();

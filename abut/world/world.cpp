@@ -154,7 +154,14 @@ Aabb<D> World<D>::box_at(const Item& item, const Pose<D>& pose) const {
 
 template <int D>
 BoundingBall<D> World<D>::ball(const Item& item) const {
-    return detail::moved(item.local_ball.ball(), affine(item.pose));
+    const detail::SmallBall<D>& local = item.local_ball;
+    Affine<D> place;
+    // Most shapes lie about the origin of their own frame, and no rotation moves their ball.
+    if (local.center == Vec<D>(0.0f))
+        place.offset = DVec<D>(item.pose.position);
+    else
+        place = affine(item.pose);
+    return detail::moved(local.ball(), place);
 }
 
 template <int D>

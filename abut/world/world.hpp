@@ -15,11 +15,13 @@
 #include <abut/world/detail/bounding_ball.hpp>
 #include <abut/world/detail/item_boxes.hpp>
 #include <abut/world/detail/pair_index.hpp>
+#include <abut/world/detail/placed_views.hpp>
 #include <abut/world/detail/query_count.hpp>
 #include <abut/world/detail/released_shapes.hpp>
 #include <abut/world/detail/swept_box.hpp>
 #include <abut/world/id.hpp>
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -265,7 +267,7 @@ public:
     /// The contacts of the last update, for pairs without a sensor, sorted by pairs. A pair that touches with several
     /// surfaces, such as a crate with the floor and a wall of one mesh, has an entry for each, the deepest first. An
     /// item that touches several others gets surface normals of their union, without ghost collisions: docs/ghosts.md.
-    std::span<const WorldContact<D>> contacts() const { return contacts_; }
+    std::span<const WorldContact<D>> contacts() const { return are_all_reported_ ? found_.contacts : contacts_; }
     /// The impacts of the last update, sorted: one for each pair with a continuous item, sensor or not, that began and
     /// touched during its motion.
     std::span<const WorldImpact<D>> impacts() const { return impacts_; }
@@ -429,14 +431,39 @@ private:
         }
     };
 
-    /// The contact of a touching pair, before ghost contacts are dropped.
-    struct FoundContact {
-        WorldContact<D> result;
+    /// What else is known of a contact of a touching pair.
+    struct FoundState {
         detail::SurfaceNormalFlags
             surface_normal;        // false for an item if the normal is a substitute for one of an internal edge
         float size = 0;            // then that of the smaller item
-        bool reported = false;     // whether it is among contacts()
+        bool reported = true;      // whether it is among contacts()
         bool is_own_area = false;  // the points of the ghost before it on the faces of the two items
+    };
+    /// Contacts of touching pairs, before ghost contacts are dropped.
+    struct FoundContacts {
+        std::vector<WorldContact<D>> contacts;
+        std::vector<FoundState> states;  // by index in contacts
+
+        std::size_t size() const { return contacts.size(); }
+        void clear() {
+            contacts.clear();
+            states.clear();
+        }
+        void reserve(std::size_t capacity) {
+            contacts.reserve(capacity);
+            states.reserve(capacity);
+        }
+        WorldContact<D>& add(const IdPair& pair, const FoundState& state) {
+            states.push_back(state);
+            WorldContact<D>& added = contacts.emplace_back();
+            added.a = pair.a;
+            added.b = pair.b;
+            return added;
+        }
+        void pop_back() {
+            contacts.pop_back();
+            states.pop_back();
+        }
     };
 
     static View<D> point_view(const Vec<D>& point) {
@@ -478,6 +505,9 @@ private:
     View<D> placed(const Item& item) const { return item.stored.moved(detail::affine(item.pose)); }
     Aabb<D> box_at(const Item& item, const Pose<D>& pose) const;
     detail::BoundingBall<D> ball(const Item& item) const;
+    const View<D>& placed_view(std::uint32_t slot) {
+        return views_.of(slot, [&] { return placed(items_[slot]); });
+    }
     const View<D>& first_placed(std::uint32_t slot);
     void visit_items(FunctionRef<bool(Id)> visit) const;
     void visit_touching(Id id, FunctionRef<bool(Id)> visit) const;
@@ -500,6 +530,8 @@ private:
     detail::SweptBox<D> swept_box_of(std::uint32_t slot) const;
     bool may_touch(std::uint32_t slot, std::uint32_t other) const;
     void add_if_near(std::uint32_t slot, std::uint32_t other);
+    int slot_bits() const;
+    void sort_near();
     void test_pair(const IdPair& pair);
     bool test_touch(const IdPair& pair);
     void test_motion(const IdPair& pair, bool touch);
@@ -521,8 +553,8 @@ private:
     bool find_contact(const IdPair& pair);
     bool needs_filter(std::uint32_t slot, std::uint32_t other, const Contact<D>* contact, double side);
     void add_found(const IdPair& pair, const detail::SurfaceContact<D>& filtered);
-    std::span<const FoundContact> last_contacts(const IdPair& pair) const;
-    bool is_covered(const FoundContact& ghost, const Id& item) const;
+    std::pair<std::size_t, std::size_t> last_contacts(const IdPair& pair) const;
+    bool is_covered(std::size_t ghost, const Id& item) const;
     void link_contacts();
     void report_contacts();
     void compare_with_last();
@@ -565,6 +597,7 @@ private:
     std::vector<std::uint64_t> shape_hashes_;  // by slot; 0: not known; the vector may be shorter than items_
     detail::ReleasedShapes<D> released_shapes_;
 
+    std::vector<std::uint64_t> near_keys_, sorted_near_keys_;
     std::vector<IdPair> near_, last_near_;
     struct DeleteEdgeFilterState {
         void operator()(detail::EdgeFilterState<D>* state) const;
@@ -579,8 +612,9 @@ private:
     };
     EdgeFilterMemory edges_;                        // made by the first update that filters
     std::vector<IdPair> touching_, last_touching_;  // now and at the last update
-    std::vector<FoundContact> found_, last_found_;
-    std::vector<WorldContact<D>> contacts_;
+    FoundContacts found_, last_found_;
+    bool are_all_reported_ = true;              // of found_
+    std::vector<WorldContact<D>> contacts_;     // those of found_ that are reported, if not all are
     std::vector<WorldImpact<D>> impacts_;       // of continuous pairs that didn't touch at the last update
     std::vector<IdPair> passed_, last_passed_;  // pairs with an impact that don't touch at the end; last update's
     std::vector<IdPair> began_, stayed_, ended_;
@@ -588,6 +622,7 @@ private:
     detail::PairIndex pair_index_;  // over touching_
     UpdateCounts counts_;
     detail::BallEarlyOuts ball_early_outs_;
+    detail::PlacedViews<D> views_;  // in an update
     /// The first shape of the pair that was tested last. Pairs are sorted, so consecutive pairs share it.
     struct {
         std::uint32_t slot = none;

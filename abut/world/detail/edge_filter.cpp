@@ -43,7 +43,7 @@ void World<D>::DeleteEdgeFilterState::operator()(EdgeFilterState<D>* state) cons
 
 template <int D>
 void World<D>::reserve_edge_filter() {
-    if (filters_edges_) edges_->reserve(items_.size(), near_.capacity(), found_.capacity());
+    if (filters_edges_) edges_->reserve(items_.size(), near_.capacity(), found_.contacts.capacity());
 }
 
 /// Lists the partners of the items whose contacts are filtered, among which needs_filter() finds their neighbours.
@@ -84,16 +84,21 @@ bool World<D>::neighbours_changed(const IdPair& pair) {
 template <int D>
 void World<D>::each_closest_point_beside(std::uint32_t slot, std::uint32_t other, const DVec<D>& point, double within,
                                          ClosestPointVisitor<D> visit) {
-    const Aabb<D> near = box_around(point, within);
     const auto visit_item = [&](std::uint32_t item) {
-        each_closest_point_on<D>(edges_->views.of(item, [&] { return placed(items_[item]); }), point, within,
+        each_closest_point_on<D>(placed_view(item), point, within,
                                  [&](const ClosestPoint<D>& closest) { return within = visit(closest); });
         return within > stop_visiting;
     };
-    const auto& list = *edges_->list_of(slot);
+    auto& list = *edges_->list_of(slot);
+    const std::uint32_t first = list.last_cover == other ? edges_->none : list.last_cover;
+    if (first != edges_->none && !visit_item(first)) return;
+    const Aabb<D> near = box_around(point, within);
     if (list.size <= max_listed_neighbours) {
-        edges_->each_neighbour(list, near,
-                               [&](std::uint32_t neighbour) { return neighbour == other || visit_item(neighbour); });
+        edges_->each_neighbour(list, near, [&](std::uint32_t neighbour) {
+            if (neighbour == other || neighbour == first || visit_item(neighbour)) return true;
+            list.last_cover = neighbour;
+            return false;
+        });
         return;
     }
     const Item& item = items_[slot];
@@ -131,17 +136,14 @@ bool World<D>::is_alone(const Contact<D>& contact, std::uint32_t slot, std::uint
     constexpr auto scale = static_cast<float>(surface_probe_scale), rounding = 0x1p-21f;
     const float s = scale * std::min(items_[slot].local_ball.radius, items_[other].local_ball.radius);
     const float min_depth = contact.depth - static_cast<float>(0.5 * deepest_tolerance) * s;
-    const auto to_surface = static_cast<float>(-0.5 * side);
+    const Vec<D> to_surface = contact.normal * static_cast<float>(-0.5 * side);
     const auto& list = *edges_->list_of(slot);
     return std::any_of(contact.points.begin(), contact.points.end(), [&](const ContactPoint<D>& point) {
         if (point.depth < min_depth) return false;
-        Aabb<D> near;
-        for (int i = 0; i < D; ++i) {
-            const float on_surface = point.position[i] + contact.normal[i] * (to_surface * point.depth);
-            const float reach = probe_reach * s + rounding * (std::abs(point.position[i]) + std::abs(point.depth));
-            near.min[i] = on_surface - reach;
-            near.max[i] = on_surface + reach;
-        }
+        const Vec<D> on_surface = point.position + to_surface * point.depth;
+        float reach = probe_reach * s + rounding * std::abs(point.depth);
+        for (int i = 0; i < D; ++i) reach += rounding * std::abs(point.position[i]);
+        const Aabb<D> near{on_surface - reach, on_surface + reach};
         return edges_->each_neighbour(list, near, [&](std::uint32_t neighbour) { return neighbour == other; });
     });
 }
@@ -169,23 +171,21 @@ bool World<D>::find_contact(const IdPair& pair) {
     const bool has_parts = type_a == ShapeType::composite || type_b == ShapeType::composite;
     const bool is_filtered = filters_edges(a) || filters_edges(b);
     const View<D>& placed_a = first_placed(a);
-    const View<D> placed_b = placed(items_[b]);
+    const View<D>& cached_b = placed_view(b);
     DeepestParts<D> deepest;
     if (!has_parts || !is_filtered) {
-        FoundContact& found = found_.emplace_back();
-        found.result.a = pair.a;
-        found.result.b = pair.b;
-        found.reported = true;
+        Contact<D>& found = found_.add(pair, {}).contact;
         if (has_parts)
-            found.result.contact = abut::contact(placed_a, placed_b);
+            found = abut::contact(placed_a, cached_b);
         else
-            find_deepest_parts(placed_a, placed_b, {}, deepest, found.result.contact);
-        const bool touch = static_cast<bool>(found.result.contact);
+            find_deepest_parts(placed_a, cached_b, {}, deepest, found);
+        const bool touch = static_cast<bool>(found);
         if (!touch) found_.pop_back();
         // Balls have no edges to catch on.
         if (!touch || !is_filtered || (type_a == ShapeType::ball && type_b == ShapeType::ball)) return touch;
     }
-    const Contact<D>* const own = has_parts ? nullptr : &found_.back().result.contact;
+    const Contact<D>* const own = has_parts ? nullptr : &found_.contacts.back().contact;
+    const View<D> placed_b = cached_b;  // the neighbours may take its place in the cache
     const bool for_a = needs_filter(a, b, own, 1), for_b = needs_filter(b, a, own, -1);
     if (!for_a && !for_b && !has_parts) return true;
     const auto closest_points_beside = [this](std::uint32_t slot, std::uint32_t other) {
@@ -220,38 +220,39 @@ bool World<D>::find_contact(const IdPair& pair) {
 /// The area of a ghost follows it in the list.
 template <int D>
 void World<D>::add_found(const IdPair& pair, const detail::SurfaceContact<D>& filtered) {
-    found_.push_back({{pair.a, pair.b, filtered.contact},
-                      filtered.surface_normals,
-                      static_cast<float>(filtered.size),
-                      static_cast<bool>(filtered.contact),
-                      false});
-    if (filtered.own_area) found_.push_back({{pair.a, pair.b, filtered.own_area}, {}, 0, false, true});
+    const bool has_contact = static_cast<bool>(filtered.contact);
+    found_.add(pair, {filtered.surface_normals, static_cast<float>(filtered.size), has_contact, false}).contact =
+        filtered.contact;
+    if (filtered.own_area) found_.add(pair, {{}, 0, false, true}).contact = filtered.own_area;
 }
 
+/// The range of the contacts of a pair in last_found_.
 template <int D>
-std::span<const typename World<D>::FoundContact> World<D>::last_contacts(const IdPair& pair) const {
-    const auto pair_of = [](const FoundContact& found) { return IdPair{found.result.a, found.result.b}; };
+std::pair<std::size_t, std::size_t> World<D>::last_contacts(const IdPair& pair) const {
+    const std::vector<WorldContact<D>>& last = last_found_.contacts;
+    const auto pair_of = [](const WorldContact<D>& found) { return IdPair{found.a, found.b}; };
     const auto first =
-        std::partition_point(last_found_.begin(), last_found_.end(), [&](const auto& f) { return pair_of(f) < pair; });
-    const auto end = std::find_if(first, last_found_.end(), [&](const auto& f) { return pair_of(f) != pair; });
-    return {first, end};
+        std::partition_point(last.begin(), last.end(), [&](const auto& found) { return pair_of(found) < pair; });
+    const auto end = std::find_if(first, last.end(), [&](const auto& found) { return pair_of(found) != pair; });
+    return {static_cast<std::size_t>(first - last.begin()), static_cast<std::size_t>(end - last.begin())};
 }
 
 /// Whether another reported contact of the item covers a contact with a substitute normal, a ghost.
 template <int D>
-bool World<D>::is_covered(const FoundContact& ghost, const Id& item) const {
+bool World<D>::is_covered(std::size_t ghost, const Id& item) const {
     const auto normal_from_item = [&](const WorldContact<D>& contact) {
         return DVec<D>(contact.contact.normal) * (contact.a == item ? 1.0 : -1.0);
     };
-    const WorldContact<D>& result = ghost.result;
+    const WorldContact<D>& result = found_.contacts[ghost];
     const std::uint32_t slot = item.index - 1;
     if (!filters_edges(slot)) return false;
     for (std::uint32_t link = edges_->last_found[slot]; link != edges_->none; link = edges_->found_before[link]) {
-        const FoundContact& other = found_[link / 2];
-        if (other.reported && &other != &ghost &&
-            covers_contact<D>(normal_from_item(other.result), static_cast<double>(other.result.contact.depth),
+        const std::size_t other = link / 2;
+        const WorldContact<D>& cover = found_.contacts[other];
+        if (found_.states[other].reported && other != ghost &&
+            covers_contact<D>(normal_from_item(cover), static_cast<double>(cover.contact.depth),
                               normal_from_item(result), static_cast<double>(result.contact.depth),
-                              static_cast<double>(ghost.size)))
+                              static_cast<double>(found_.states[ghost].size)))
             return true;
     }
     return false;
@@ -263,8 +264,8 @@ void World<D>::link_contacts() {
     std::vector<std::uint32_t>& last = edges_->last_found;
     last.assign(items_.size(), edges_->none);
     edges_->found_before.clear();
-    for (const FoundContact& found : found_)
-        for (const Id& id : {found.result.a, found.result.b}) {
+    for (const WorldContact<D>& found : found_.contacts)
+        for (const Id& id : {found.a, found.b}) {
             edges_->found_before.push_back(last[id.index - 1]);
             last[id.index - 1] = static_cast<std::uint32_t>(edges_->found_before.size() - 1);
         }
@@ -274,23 +275,28 @@ void World<D>::link_contacts() {
 /// reported by the area that its items have on the surface, if they have any, so that they still hold each other.
 template <int D>
 void World<D>::report_contacts() {
+    std::vector<FoundState>& states = found_.states;
     bool any_ghost = false;
-    for (FoundContact& found : found_) {
-        if (found.surface_normal) continue;
-        found.reported = false;
-        any_ghost = true;
+    are_all_reported_ = true;
+    for (FoundState& state : states) {
+        const bool is_ghost = !state.surface_normal;
+        any_ghost = any_ghost || is_ghost;
+        state.reported = state.reported && !is_ghost;
+        are_all_reported_ = are_all_reported_ && state.reported;
     }
+    if (are_all_reported_) return;
     if (any_ghost) link_contacts();
-    for (FoundContact& found : found_) {
-        if (found.surface_normal || !found.result.contact || found.is_own_area) continue;
-        found.reported = (found.surface_normal.a || !is_covered(found, found.result.a)) &&
-                         (found.surface_normal.b || !is_covered(found, found.result.b));
+    contacts_.clear();
+    for (std::size_t i = 0; i < states.size(); ++i) {
+        const WorldContact<D>& found = found_.contacts[i];
+        FoundState& state = states[i];
+        if (state.surface_normal || !found.contact || state.is_own_area) continue;
+        state.reported =
+            (state.surface_normal.a || !is_covered(i, found.a)) && (state.surface_normal.b || !is_covered(i, found.b));
     }
-    bool is_before_reported = true;
-    for (const FoundContact& found : found_) {
-        if (found.is_own_area ? !is_before_reported : found.reported) contacts_.push_back(found.result);
-        is_before_reported = found.reported;
-    }
+    for (std::size_t i = 0; i < states.size(); ++i)
+        if (states[i].is_own_area ? !states[i - 1].reported : states[i].reported)
+            contacts_.push_back(found_.contacts[i]);
 }
 
 template class World<2>;

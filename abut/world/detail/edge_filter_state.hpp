@@ -4,7 +4,6 @@
 
 #include <abut/math/simd/float4-inl.h>
 #include <abut/query/detail/surface/surface_contacts.hpp>
-#include <abut/world/detail/view_cache.hpp>
 
 #include <algorithm>
 #include <array>
@@ -60,7 +59,8 @@ struct EdgeFilterState {
         std::uint32_t first_block = none;                    ///< in blocks; none: the neighbours aren't found yet
         std::uint32_t size = 0;                              ///< number of neighbours
         std::uint32_t nearest = none;                        ///< in nearest_to_center
-        bool is_center_tested = false;                       ///< for neighbours that contain it
+        std::uint32_t last_cover = none;  ///< the neighbour that ended the last search, likely the next
+        bool is_center_tested = false;    ///< for neighbours that contain it
         bool is_center_covered = false;
     };
 
@@ -75,7 +75,6 @@ struct EdgeFilterState {
     /// (for its A) and 2 i + 1 (for its B) in found_before, which refer to the item's place before.
     std::vector<std::uint32_t> last_found;  ///< by slot
     std::vector<std::uint32_t> found_before;
-    ViewCache<D> views;
     std::vector<char> neighbour_changed;  ///< by slot: an item near it has changed since the last update
     bool neighbour_changed_is_known = false;
 
@@ -85,7 +84,6 @@ struct EdgeFilterState {
         partners.clear();
         blocks.clear();
         nearest_to_center.clear();
-        views.clear();
         neighbour_changed_is_known = false;
     }
     /// An item with a single partner has no second neighbour, and so no list.

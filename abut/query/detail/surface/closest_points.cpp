@@ -42,13 +42,15 @@ bool find_closest_point_on_segment(const Convex<D>& part, const DVec<D>& point, 
 template <int D>
 bool find_closest_point_on_box(const Convex<D>& box, const DVec<D>& point, double within, ClosestPoint<D>& closest) {
     const double scale = box.scale, reach = within + box.radius;
-    const DVec<D> local = box.place.transposed(point - box.place.offset) / (scale * scale), half(box.own[0]);
+    const DVec<D> scaled = box.place.transposed(point - box.place.offset), half(box.own[0]);
+    for (int i = 0; i < D; ++i)
+        if (std::abs(scaled[i]) > (half[i] * scale + reach) * scale) return false;
+    const DVec<D> local = scaled / (scale * scale);
     DVec<D> on_box = local;
     double inner_gap = -std::numeric_limits<double>::infinity();
     int axis = 0;
     for (int i = 0; i < D; ++i) {
         const double gap = std::abs(local[i]) - half[i];
-        if (gap * scale > reach) return false;
         if (gap > 0) on_box[i] = std::copysign(half[i], local[i]);
         if (gap > inner_gap) {
             inner_gap = gap;

@@ -44,13 +44,9 @@ bool find_closest_point(const Part<D>& part, const DVec<D>& point, double within
 template <int D>
 Aabb<D> box_around(const DVec<D>& point, double within) {
     constexpr double wider = 0x1p-22;
-    Aabb<D> result;
-    for (int i = 0; i < D; ++i) {
-        const double reach = within * (1 + wider) + std::abs(point[i]) * wider;
-        result.min[i] = static_cast<float>(point[i] - reach);
-        result.max[i] = static_cast<float>(point[i] + reach);
-    }
-    return result;
+    const auto reach = static_cast<float>(within * (1 + wider) + largest(point) * wider);
+    const Vec<D> middle = to_float(point);
+    return {middle - reach, middle + reach};
 }
 
 /// Visits the closest points of the parts of a shape.

@@ -45,7 +45,7 @@ struct DeepestParts {
 };
 
 /// Finds the deepest parts; of composite shapes without the manifold. For two convex shapes it writes their contact
-/// too. Returns false, and leaves `contact`, if the shapes don't touch.
+/// too. Returns false, and leaves `contact`, if the shapes don't touch. All numbers of the shapes are finite.
 template <int D>
 bool find_deepest_parts(const View<D>& a, const View<D>& b, const QueryOptions<D>& options, DeepestParts<D>& deepest,
                         Contact<D>& contact);

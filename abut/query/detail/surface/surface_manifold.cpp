@@ -166,6 +166,10 @@ template <int D>
 ManifoldCandidates<D> ExtremePoints<D>::distinct(double tolerance) const {
     ManifoldCandidates<D> result;
     if (count_ == 0) return result;
+    if (count_ == 1) {
+        result.push_back(deepest_);
+        return result;
+    }
     for (const ManifoldPoint<D>& point : extreme_) {
         const auto end = result.points.begin() + static_cast<std::ptrdiff_t>(result.count);
         const bool is_new = std::none_of(result.points.begin(), end, [&](const ManifoldPoint<D>& other) {
