@@ -20,12 +20,9 @@ namespace {
 /// `point` is the point of contact there.
 template <int D>
 void filter_normal(const MoverAtHit<D>& mover, const View<D>& shape, const DVec<D>& point, Hit<D>& hit) {
-    const auto closest_points = [&](const DVec<D>& from, double within, ClosestPointVisitor<D> visit) {
-        each_closest_point_on(shape, from, within, visit);
-    };
     Hit<D> filtered = hit;
     filtered.point = to_float(point);
-    filter_hit_normal<D>(mover, shape, closest_points, filtered);
+    filter_hit_normal<D>(mover, shape, nullptr, filtered);
     hit.normal = filtered.normal;
 }
 

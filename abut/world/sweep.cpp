@@ -66,15 +66,16 @@ std::optional<WorldHit<D>> World<D>::first_on_path(const View<D>& shape, const d
 /// Replaces the hit's normal by a surface normal of the union of all items, without internal edges (docs/ghosts.md).
 template <int D>
 void World<D>::filter_normal(const MoverAtHit<D>& mover, const Filter& filter, WorldHit<D>& hit) const {
-    const auto closest_points = [&](const DVec<D>& from, double within, ClosestPointVisitor<D> visit) {
-        const Vec<D> point = to_float(from);
-        visit_in_box(grown(Aabb<D>{point, point}, static_cast<float>(within)), filter, [&](Id, const View<D>& item) {
-            each_closest_point_on<D>(item, from, within,
-                                     [&](const ClosestPoint<D>& closest) { return within = visit(closest); });
+    const auto beside_hit = [&](const DVec<D>& from, double within, ClosestPointVisitor<D> visit) {
+        visit_in_box(box_around(from, within), filter, [&](Id id, const View<D>& item) {
+            if (id != hit.id)
+                each_closest_point_on<D>(item, from, within,
+                                         [&](const ClosestPoint<D>& closest) { return within = visit(closest); });
             return within > stop_visiting;
         });
     };
-    filter_hit_normal<D>(mover, shape(hit.id), closest_points, hit.hit);
+    const EachClosestPoint<D> neighbours(beside_hit);
+    filter_hit_normal<D>(mover, shape(hit.id), &neighbours, hit.hit);
 }
 
 template <int D>

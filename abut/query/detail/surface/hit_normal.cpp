@@ -1,6 +1,13 @@
 #include <abut/query/detail/surface/hit_normal.hpp>
+#include <abut/query/detail/surface/part_cache.hpp>
 
 namespace abut::detail {
+namespace {
+
+/// Most searches around a hit stay this near to it, in units of s.
+constexpr double cached_reach = 4;
+
+}  // namespace
 
 template <int D>
 MoverAtHit<D> linear_mover_at_hit(const View<D>& mover, const DVec<D>& travelled) {
@@ -12,25 +19,36 @@ MoverAtHit<D> rotating_mover_at_hit(const View<D>& mover, const RigidPath<D>& pa
 }
 
 template <int D>
-void filter_hit_normal(const MoverAtHit<D>& mover, const View<D>& shape, EachClosestPoint<D> each_closest_point,
+void filter_hit_normal(const MoverAtHit<D>& mover, const View<D>& shape, const EachClosestPoint<D>* neighbours,
                        Hit<D>& hit) {
     if (!std::isfinite(mover.size)) return;
-    const EdgeFilter<D> filter(each_closest_point, mover.size);
+    Surface<D> surface{shape, neighbours};
+    const EdgeFilter<D> filter(surface, mover.size);
     const SurfacePlace<D> place{DVec<D>(hit.point), DVec<D>(hit.normal), mover.center};
-    for_each_part(shape, box_around(place.point, filter.scale()), [&](const Part<D>& part, std::uint32_t index) {
+    const auto filter_of = [&](const Part<D>& part, std::uint32_t index) {
         if (index != hit.feature.part) return true;
         if (filter.is_surface_normal(part, place)) return false;
         NearestToCenter<D> nearest;
         const std::optional<SurfacePlane<D>> plane = filter.plane_near(part, place, nearest);
         if (plane && dot(plane->normal, mover.direction) < 0) hit.normal = to_float(plane->normal);
         return false;
-    });
+    };
+    const Aabb<D> near = box_around(place.point, cached_reach * filter.scale());
+    PartCache<D> cache;
+    if (!surface.is_composite() || !cache.fill(std::get<Composite<D>>(shape), near)) {
+        for_each_part(shape, near, filter_of);
+        return;
+    }
+    if (cache.size() == 1 && neighbours == nullptr) return;  // the part itself
+    surface.cache = &cache;
+    for (std::uint32_t i = 0; i < cache.size(); ++i)
+        if (!filter_of(cache.part(i), cache.index(i))) return;
 }
 
 #define ABUT_INSTANTIATE(D)                                                                                    \
     template MoverAtHit<D> linear_mover_at_hit(const View<D>&, const DVec<D>&);                                \
     template MoverAtHit<D> rotating_mover_at_hit(const View<D>&, const RigidPath<D>&, double, const DVec<D>&); \
-    template void filter_hit_normal(const MoverAtHit<D>&, const View<D>&, EachClosestPoint<D>, Hit<D>&);
+    template void filter_hit_normal(const MoverAtHit<D>&, const View<D>&, const EachClosestPoint<D>*, Hit<D>&);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

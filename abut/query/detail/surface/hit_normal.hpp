@@ -24,10 +24,10 @@ template <int D>
 MoverAtHit<D> rotating_mover_at_hit(const View<D>& mover, const RigidPath<D>& path, double time, const DVec<D>& point);
 
 /// Replaces the normal of a hit on an internal edge by the normal of the surface, if that faces the mover. The hit is
-/// on a part of `shape`. `each_closest_point` visits all parts of the surface, including those of `shape`, placed so
-/// that `hit.point` lies on the surface.
+/// on a part of `shape`, which is placed so that `hit.point` lies on its surface. `neighbours` visits the closest
+/// points of the shapes that continue the surface; null: there are none.
 template <int D>
-void filter_hit_normal(const MoverAtHit<D>& mover, const View<D>& shape, EachClosestPoint<D> each_closest_point,
+void filter_hit_normal(const MoverAtHit<D>& mover, const View<D>& shape, const EachClosestPoint<D>* neighbours,
                        Hit<D>& hit);
 
 }  // namespace abut::detail

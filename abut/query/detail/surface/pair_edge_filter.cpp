@@ -29,15 +29,6 @@ bool find_distance_to_plane(const Part<D>& part, const SurfacePlane<D>& plane, S
 
 }  // namespace
 
-template <int D>
-void PairEdgeFilter<D>::Surface::operator()(const DVec<D>& point, double within, ClosestPointVisitor<D> visit) const {
-    double reach_left = within;
-    const auto visit_own = [&](const ClosestPoint<D>& closest) { return reach_left = visit(closest); };
-    if (cache == nullptr || !is_composite() || !cache->each_closest_point(point, within, visit_own))
-        each_closest_point_on<D>(level, point, within, visit_own);
-    if (neighbours != nullptr && reach_left > stop_visiting) (*neighbours)(point, reach_left, visit);
-}
-
 /// The centre of the bounding box of the shape, computed on the first call; the origin for a half-space.
 template <int D>
 const DVec<D>& PairEdgeFilter<D>::ForShape::center() const {

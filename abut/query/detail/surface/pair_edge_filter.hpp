@@ -28,7 +28,10 @@ public:
     PairEdgeFilter(const View<D>& a, const View<D>& b, const NeighbourSurfaces<D>& neighbours = {});
 
     /// From now on queries try this cache of the composite shape's parts first.
-    void use_cache(const PartCache<D>& cache) { for_a_.surface.cache = for_b_.surface.cache = &cache; }
+    void use_cache(const PartCache<D>& cache) {
+        for (ForShape* shape : {&for_a_, &for_b_})
+            if (shape->surface.is_composite()) shape->surface.cache = &cache;
+    }
 
     /// The size of the smaller shape.
     double size() const { return std::min(size_a_, size_b_); }
@@ -51,16 +54,6 @@ public:
                  SignedDistance<D>& distance);
 
 private:
-    /// The closest points on a shape and its neighbours.
-    struct Surface {
-        const View<D>& level;
-        const EachClosestPoint<D>* neighbours;
-        const PartCache<D>* cache = nullptr;
-
-        bool is_composite() const { return std::holds_alternative<Composite<D>>(level); }
-        void operator()(const DVec<D>& point, double within, ClosestPointVisitor<D> visit) const;
-    };
-
     /// The filter for one of the two shapes. The other one is the level.
     class ForShape {
     public:
@@ -80,7 +73,7 @@ private:
         std::optional<SurfacePlane<D>> plane(const Part<D>& part, const Part<D>& level_part,
                                              const SignedDistance<D>& distance);
 
-        Surface surface;
+        Surface<D> surface;
         EdgeFilter<D> filter;
 
     private:

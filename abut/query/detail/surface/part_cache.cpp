@@ -57,6 +57,17 @@ bool PartCache<D>::each_closest_point(const DVec<D>& point, double within, Close
     return true;
 }
 
+template <int D>
+void Surface<D>::operator()(const DVec<D>& point, double within, ClosestPointVisitor<D> visit) const {
+    double reach_left = within;
+    const auto visit_own = [&](const ClosestPoint<D>& closest) { return reach_left = visit(closest); };
+    if (cache == nullptr || !cache->each_closest_point(point, within, visit_own))
+        each_closest_point_on<D>(shape, point, within, visit_own);
+    if (neighbours != nullptr && reach_left > stop_visiting) (*neighbours)(point, reach_left, visit);
+}
+
+template struct Surface<2>;
+template struct Surface<3>;
 template class PartCache<2>;
 template class PartCache<3>;
 

@@ -56,6 +56,19 @@ private:
     UninitializedArray<Entry, capacity> entries_;
 };
 
+/// The closest points on a shape and on those that continue its surface.
+template <int D>
+struct Surface {
+    const View<D>& shape;
+    const EachClosestPoint<D>* neighbours = nullptr;  ///< null: there are none
+    const PartCache<D>* cache = nullptr;              ///< parts of the shape, or null
+
+    bool is_composite() const { return std::holds_alternative<Composite<D>>(shape); }
+    void operator()(const DVec<D>& point, double within, ClosestPointVisitor<D> visit) const;
+};
+
+extern template struct Surface<2>;
+extern template struct Surface<3>;
 extern template class PartCache<2>;
 extern template class PartCache<3>;
 
