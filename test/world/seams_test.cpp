@@ -378,5 +378,37 @@ TEST(Seams, OfManyPiecesGiveNoContact) {
     }
 }
 
+/// The contacts of a tilted crate that a floor of tiles and two neighbours hold, each `stride` slots after the last
+/// one.
+std::vector<Bits> contacts_of_a_crate(int stride) {
+    World2 world;
+    const auto add = [&](const Box2& box, const ItemOptions<2>& options) {
+        const Id id = world.add(box, options);
+        for (int i = 1; i < stride; ++i)
+            world.add(Circle{{1000.0f + 3.0f * static_cast<float>(i), 1000}, 1}, {.fixed = true});
+        return id;
+    };
+    const Id crate = add({{0, 0}, {1, 1}}, {});
+    for (int i = 0; i < 6; ++i) add({{static_cast<float>(i), 0.5f}, {0.5f, 0.5f}}, {.fixed = i % 2 == 0});
+    add({{3.6f, 1.9f}, {0.52f, 0.9f}}, {});
+    std::vector<Bits> result;
+    for (int i = 0; i < 40; ++i) {
+        const float step = static_cast<float>(i);
+        world.move(crate, {{1.5f + 0.03f * step, 1.99f - 0.01f * step}, Turn::by(0.004f * (step - 20))});
+        world.update();
+        for (const WorldContact<2>& found : world.contacts())
+            if (found.a == crate || found.b == crate) result.emplace_back(found.contact);
+    }
+    return result;
+}
+
+/// The views of items whose slots differ by 1,024 share a place in the cache of an update.
+TEST(Seams, DoNotDependOnTheSlots) {
+    const std::vector<Bits> together = contacts_of_a_crate(1);
+    EXPECT_GE(together.size(), 100u);
+    EXPECT_EQ(together, contacts_of_a_crate(3));
+    EXPECT_EQ(together, contacts_of_a_crate(1024));
+}
+
 }  // namespace
 }  // namespace abut::test
