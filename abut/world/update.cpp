@@ -95,8 +95,9 @@ void World<D>::repeat_last(const IdPair& pair) {
         return;
     }
     for (std::size_t i = first; i < end; ++i) {
-        found_.contacts.push_back(last_found_.contacts[i]);
-        found_.states.push_back(last_found_.states[i]);
+        const FoundState& last = last_found_.states[i];
+        found_.add(pair, last) = last_found_.contacts[i];
+        if (last.own_area != none) found_.set_own_area(found_.size() - 1, last_found_.own_areas[last.own_area]);
     }
 }
 
@@ -203,6 +204,7 @@ Events World<D>::find_events() {
     counts_ = {near_.size(), 0, 0};
     list_partners();
     for (const IdPair& pair : near_) test_pair(pair);
+    filter_contacts();
     report_contacts();
     ball_early_outs_.decide();
     // Reserve for the worst case of a scene of this size: the lists are swapped, and all pairs may begin, stay or end.
@@ -211,7 +213,7 @@ Events World<D>::find_events() {
     for (std::vector<IdPair>* list : {&passed_, &last_passed_}) list->reserve(impacts_.capacity());
     for (std::vector<IdPair>* list : {&began_, &ended_}) list->reserve(capacity + impacts_.capacity());
     fractions_.reserve(began_.capacity());
-    last_found_.reserve(found_.contacts.capacity());
+    last_found_.reserve_like(found_);
     contacts_.reserve(found_.contacts.capacity());
     last_near_.reserve(near_.capacity());
     reserve_edge_filter();

@@ -434,24 +434,31 @@ private:
     /// What else is known of a contact of a touching pair.
     struct FoundState {
         detail::SurfaceNormalFlags
-            surface_normal;        // false for an item if the normal is a substitute for one of an internal edge
-        float size = 0;            // then that of the smaller item
-        bool reported = true;      // whether it is among contacts()
-        bool is_own_area = false;  // the points of the ghost before it on the faces of the two items
+            surface_normal;             // false for an item if the normal is a substitute for one of an internal edge
+        float size = 0;                 // then that of the smaller item
+        bool reported = true;           // whether it is among contacts()
+        std::uint32_t own_area = none;  // of a ghost: the index of its points on the faces of the two items
     };
     /// Contacts of touching pairs, before ghost contacts are dropped.
     struct FoundContacts {
         std::vector<WorldContact<D>> contacts;
         std::vector<FoundState> states;  // by index in contacts
+        std::vector<WorldContact<D>> own_areas;
 
         std::size_t size() const { return contacts.size(); }
         void clear() {
             contacts.clear();
             states.clear();
+            own_areas.clear();
         }
-        void reserve(std::size_t capacity) {
-            contacts.reserve(capacity);
-            states.reserve(capacity);
+        void reserve_like(const FoundContacts& other) {
+            contacts.reserve(other.contacts.capacity());
+            states.reserve(other.states.capacity());
+            own_areas.reserve(other.own_areas.capacity());
+        }
+        void set_own_area(std::size_t index, const WorldContact<D>& area) {
+            states[index].own_area = static_cast<std::uint32_t>(own_areas.size());
+            own_areas.push_back(area);
         }
         WorldContact<D>& add(const IdPair& pair, const FoundState& state) {
             states.push_back(state);
@@ -552,7 +559,11 @@ private:
     bool is_alone(const Contact<D>& contact, std::uint32_t slot, std::uint32_t other, double side) const;
     bool find_contact(const IdPair& pair);
     bool needs_filter(std::uint32_t slot, std::uint32_t other, const Contact<D>* contact, double side);
-    void add_found(const IdPair& pair, const detail::SurfaceContact<D>& filtered);
+    bool find_surface_contacts(const IdPair& pair);
+    void filter_contacts();
+    template <class Use>
+    void with_neighbours(std::uint32_t a, std::uint32_t b, bool for_a, bool for_b, const Use& use);
+    void set_found(std::size_t index, const detail::SurfaceContact<D>& filtered);
     std::pair<std::size_t, std::size_t> last_contacts(const IdPair& pair) const;
     bool is_covered(std::size_t ghost, const Id& item) const;
     void link_contacts();

@@ -162,32 +162,10 @@ bool World<D>::needs_filter(std::uint32_t slot, std::uint32_t other, const Conta
     return (contact == nullptr || !is_alone(*contact, slot, other, side)) && !is_center_covered(slot);
 }
 
-/// Finds the contacts of two items and appends them to found_, with the surface of their neighbours where these are
-/// near. Returns whether the items touch.
+/// Calls use(neighbours) with what the items in two slots touch beside each other.
 template <int D>
-bool World<D>::find_contact(const IdPair& pair) {
-    const std::uint32_t a = pair.a.index - 1, b = pair.b.index - 1;
-    const ShapeType type_a = items_[a].type, type_b = items_[b].type;
-    const bool has_parts = type_a == ShapeType::composite || type_b == ShapeType::composite;
-    const bool is_filtered = filters_edges(a) || filters_edges(b);
-    const View<D>& placed_a = first_placed(a);
-    const View<D>& cached_b = placed_view(b);
-    DeepestParts<D> deepest;
-    if (!has_parts || !is_filtered) {
-        Contact<D>& found = found_.add(pair, {}).contact;
-        if (has_parts)
-            found = abut::contact(placed_a, cached_b);
-        else
-            find_deepest_parts(placed_a, cached_b, {}, deepest, found);
-        const bool touch = static_cast<bool>(found);
-        if (!touch) found_.pop_back();
-        // Balls have no edges to catch on.
-        if (!touch || !is_filtered || (type_a == ShapeType::ball && type_b == ShapeType::ball)) return touch;
-    }
-    const Contact<D>* const own = has_parts ? nullptr : &found_.contacts.back().contact;
-    const View<D> placed_b = cached_b;  // the neighbours may take its place in the cache
-    const bool for_a = needs_filter(a, b, own, 1), for_b = needs_filter(b, a, own, -1);
-    if (!for_a && !for_b && !has_parts) return true;
+template <class Use>
+void World<D>::with_neighbours(std::uint32_t a, std::uint32_t b, bool for_a, bool for_b, const Use& use) {
     const auto closest_points_beside = [this](std::uint32_t slot, std::uint32_t other) {
         return [this, slot, other](const DVec<D>& point, double within, ClosestPointVisitor<D> visit) {
             each_closest_point_beside(slot, other, point, within, visit);
@@ -195,35 +173,95 @@ bool World<D>::find_contact(const IdPair& pair) {
     };
     const auto beside_b = closest_points_beside(a, b), beside_a = closest_points_beside(b, a);
     const EachClosestPoint<D> of_a(beside_b), of_b(beside_a);
-    const auto nearest_to = [&](std::uint32_t slot, bool is_needed) {
-        return has_parts || !is_needed ? nullptr : &edges_->nearest_of(*edges_->list_of(slot));
-    };
-    const NeighbourSurfaces<D> neighbours{for_a ? &of_a : nullptr, for_b ? &of_b : nullptr, nearest_to(a, for_a),
-                                          nearest_to(b, for_b)};
-    if (!has_parts) {
-        const SurfaceContact<D> filtered = filtered_contact(placed_a, placed_b, deepest.contact, *own, neighbours);
+    use(NeighbourSurfaces<D>{for_a ? &of_a : nullptr, for_b ? &of_b : nullptr});
+}
+
+/// Finds the contacts of two items and appends them to found_. Those of items without parts are filtered later, all at
+/// once. Returns whether the items touch.
+template <int D>
+bool World<D>::find_contact(const IdPair& pair) {
+    const std::uint32_t a = pair.a.index - 1, b = pair.b.index - 1;
+    const ShapeType type_a = items_[a].type, type_b = items_[b].type;
+    const bool has_parts = type_a == ShapeType::composite || type_b == ShapeType::composite;
+    const bool is_filtered = filters_edges(a) || filters_edges(b);
+    if (has_parts && is_filtered) return find_surface_contacts(pair);
+    const View<D>&placed_a = first_placed(a), &placed_b = placed_view(b);
+    Contact<D>& found = found_.add(pair, {}).contact;
+    // Balls have no edges to catch on.
+    const bool is_unfiltered = is_filtered && (type_a != ShapeType::ball || type_b != ShapeType::ball);
+    DeepestParts<D> own;
+    if (has_parts)
+        found = abut::contact(placed_a, placed_b);
+    else
+        find_deepest_parts(placed_a, placed_b, {}, is_unfiltered ? edges_->next_deepest() : own, found);
+    if (!found) {
         found_.pop_back();
-        add_found(pair, filtered);
-        return true;
+        return false;
     }
+    if (is_unfiltered && edges_->add_unfiltered(found_.size() - 1)) filter_contacts();
+    return true;
+}
+
+/// Finds the contacts of two items of which at least one is composite, with the surface of their neighbours.
+template <int D>
+bool World<D>::find_surface_contacts(const IdPair& pair) {
+    const std::uint32_t a = pair.a.index - 1, b = pair.b.index - 1;
+    const bool for_a = needs_filter(a, b, nullptr, 1), for_b = needs_filter(b, a, nullptr, -1);
+    const View<D>& placed_a = first_placed(a);
+    const View<D> placed_b = placed_view(b);  // a copy: the neighbours may take its place in the cache
     const std::size_t first = found_.size();
-    const bool touch =
-        each_surface_contact<D>(placed_a, placed_b, {}, neighbours, [&](const SurfaceContact<D>& filtered) {
-            add_found(pair, filtered);
+    bool touch = false;
+    with_neighbours(a, b, for_a, for_b, [&](const NeighbourSurfaces<D>& neighbours) {
+        touch = each_surface_contact<D>(placed_a, placed_b, {}, neighbours, [&](const SurfaceContact<D>& filtered) {
+            found_.add(pair, {});
+            set_found(found_.size() - 1, filtered);
             return true;
         });
+    });
     // A pair that touches without a contact is in the list too.
-    if (touch && found_.size() == first) add_found(pair, {});
+    if (touch && found_.size() == first) {
+        found_.add(pair, {});
+        found_.states.back().reported = false;
+    }
     return touch;
 }
 
-/// The area of a ghost follows it in the list.
+/// Filters the contacts of items without parts that were found last.
 template <int D>
-void World<D>::add_found(const IdPair& pair, const detail::SurfaceContact<D>& filtered) {
-    const bool has_contact = static_cast<bool>(filtered.contact);
-    found_.add(pair, {filtered.surface_normals, static_cast<float>(filtered.size), has_contact, false}).contact =
-        filtered.contact;
-    if (filtered.own_area) found_.add(pair, {{}, 0, false, true}).contact = filtered.own_area;
+void World<D>::filter_contacts() {
+    if (!filters_edges_) return;
+    const auto last = std::span(edges_->unfiltered).first(std::exchange(edges_->unfiltered_count, 0));
+    for (auto& unfiltered : last) {
+        const WorldContact<D>& found = found_.contacts[unfiltered.found];
+        const std::uint32_t a = found.a.index - 1, b = found.b.index - 1;
+        unfiltered.for_a = needs_filter(a, b, &found.contact, 1);
+        unfiltered.for_b = needs_filter(b, a, &found.contact, -1);
+    }
+    for (const auto& unfiltered : last) {
+        if (!unfiltered.for_a && !unfiltered.for_b) continue;
+        const WorldContact<D>& found = found_.contacts[unfiltered.found];
+        const std::uint32_t a = found.a.index - 1, b = found.b.index - 1;
+        const View<D>& placed_a = first_placed(a);
+        const View<D> placed_b = placed_view(b);  // a copy: the neighbours may take its place in the cache
+        with_neighbours(a, b, unfiltered.for_a, unfiltered.for_b, [&](NeighbourSurfaces<D> neighbours) {
+            if (unfiltered.for_a) neighbours.nearest_to_a = &edges_->nearest_of(*edges_->list_of(a));
+            if (unfiltered.for_b) neighbours.nearest_to_b = &edges_->nearest_of(*edges_->list_of(b));
+            set_found(unfiltered.found,
+                      filtered_contact(placed_a, placed_b, unfiltered.deepest.contact, found.contact, neighbours));
+        });
+    }
+}
+
+/// Writes a contact to its place in found_.
+template <int D>
+void World<D>::set_found(std::size_t index, const detail::SurfaceContact<D>& filtered) {
+    WorldContact<D>& found = found_.contacts[index];
+    FoundState& state = found_.states[index];
+    found.contact = filtered.contact;
+    state.surface_normal = filtered.surface_normals;
+    state.size = static_cast<float>(filtered.size);
+    state.reported = static_cast<bool>(filtered.contact);
+    if (filtered.own_area) found_.set_own_area(index, {found.a, found.b, filtered.own_area});
 }
 
 /// The range of the contacts of a pair in last_found_.
@@ -290,13 +328,14 @@ void World<D>::report_contacts() {
     for (std::size_t i = 0; i < states.size(); ++i) {
         const WorldContact<D>& found = found_.contacts[i];
         FoundState& state = states[i];
-        if (state.surface_normal || !found.contact || state.is_own_area) continue;
-        state.reported =
-            (state.surface_normal.a || !is_covered(i, found.a)) && (state.surface_normal.b || !is_covered(i, found.b));
+        if (!state.surface_normal && found.contact)
+            state.reported = (state.surface_normal.a || !is_covered(i, found.a)) &&
+                             (state.surface_normal.b || !is_covered(i, found.b));
+        if (state.reported)
+            contacts_.push_back(found);
+        else if (state.own_area != none)
+            contacts_.push_back(found_.own_areas[state.own_area]);
     }
-    for (std::size_t i = 0; i < states.size(); ++i)
-        if (states[i].is_own_area ? !states[i - 1].reported : states[i].reported)
-            contacts_.push_back(found_.contacts[i]);
 }
 
 template class World<2>;

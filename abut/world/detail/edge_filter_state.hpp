@@ -10,6 +10,7 @@
 #include <bit>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -64,6 +65,16 @@ struct EdgeFilterState {
         bool is_center_covered = false;
     };
 
+    /// A contact of items without parts that isn't filtered yet, by its index in World::found_, and for which of its
+    /// items it needs that.
+    struct Unfiltered {
+        std::uint32_t found;
+        bool for_a, for_b;
+        DeepestParts<D> deepest;
+    };
+    /// They are filtered together, so that the code of either step stays in the instruction cache.
+    static constexpr std::size_t max_unfiltered = 32;
+
     /// By slot: the number of its partners, and from add_partner() on the index of its list with this bit.
     static constexpr std::uint32_t has_list = 0x80000000;
     std::vector<std::uint32_t> list_of_slot;
@@ -71,6 +82,8 @@ struct EdgeFilterState {
     std::vector<std::uint32_t> partners;  ///< slots
     std::vector<Block> blocks;
     std::vector<NearestToCenter<D>> nearest_to_center;
+    std::array<Unfiltered, max_unfiltered> unfiltered;
+    std::size_t unfiltered_count = 0;
     /// The contacts of each item, in an update with substitute normals: contact i of World::found_ has the places 2 i
     /// (for its A) and 2 i + 1 (for its B) in found_before, which refer to the item's place before.
     std::vector<std::uint32_t> last_found;  ///< by slot
@@ -84,7 +97,15 @@ struct EdgeFilterState {
         partners.clear();
         blocks.clear();
         nearest_to_center.clear();
+        unfiltered_count = 0;
         neighbour_changed_is_known = false;
+    }
+    /// Where the parts of the next contact go.
+    DeepestParts<D>& next_deepest() { return *std::construct_at(&unfiltered[unfiltered_count].deepest); }
+    /// Adds it, by its index in World::found_. Returns whether it is time to filter the contacts.
+    bool add_unfiltered(std::size_t found) {
+        unfiltered[unfiltered_count].found = static_cast<std::uint32_t>(found);
+        return ++unfiltered_count == max_unfiltered;
     }
     /// An item with a single partner has no second neighbour, and so no list.
     void add_partner(std::uint32_t slot, std::uint32_t partner) {
