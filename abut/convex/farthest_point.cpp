@@ -2,6 +2,7 @@
 // one by one in all of them, and a maximum doesn't depend on the order of the comparisons.
 
 #include <abut/convex/farthest_point.hpp>
+#include <abut/math/simd/dispatch-inl.h>
 
 #include <limits>
 
@@ -77,12 +78,7 @@ std::uint32_t farthest(const Vec<D>* points, std::size_t count, const DVec<D>& d
     return static_cast<std::uint32_t>(result);
 }
 
-std::uint32_t farthest_in_plane(const Vec2* points, std::size_t count, const DVec<2>& direction) {
-    return farthest<2>(points, count, direction);
-}
-std::uint32_t farthest_in_space(const Vec3* points, std::size_t count, const DVec<3>& direction) {
-    return farthest<3>(points, count, direction);
-}
+ABUT_NAME_DIMENSIONS(farthest);
 
 std::uint32_t farthest_of_lanes(const PointSoa& points, const DVec<3>& direction) {
     return farthest_lane(points, direction);
@@ -94,15 +90,14 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace abut::detail {
 
-HWY_EXPORT(farthest_in_plane);
-HWY_EXPORT(farthest_in_space);
+ABUT_EXPORT_DIMENSIONS(farthest);
 HWY_EXPORT(farthest_of_lanes);
 
 std::uint32_t farthest_point(std::span<const Vec2> points, const DVec<2>& direction) {
-    return HWY_DYNAMIC_DISPATCH(farthest_in_plane)(points.data(), points.size(), direction);
+    return dispatched_farthest<2>()(points.data(), points.size(), direction);
 }
 std::uint32_t farthest_point(std::span<const Vec3> points, const DVec<3>& direction) {
-    return HWY_DYNAMIC_DISPATCH(farthest_in_space)(points.data(), points.size(), direction);
+    return dispatched_farthest<3>()(points.data(), points.size(), direction);
 }
 std::uint32_t farthest_point(const PointSoa& points, const DVec<3>& direction) {
     return HWY_DYNAMIC_DISPATCH(farthest_of_lanes)(points, direction);

@@ -8,6 +8,7 @@
 // before (a warm start).
 
 #include <abut/bake/field/nearest_primitive.hpp>
+#include <abut/math/simd/dispatch-inl.h>
 
 #include <algorithm>
 #include <array>
@@ -319,20 +320,8 @@ void nearest_to_block(const PrimitiveBvh<D>& tree, const SampleLattice<D>& latti
     }
 }
 
-NearestPrimitive nearest_to_point2(const PrimitiveBvh<2>& tree, const DVec<2>& point) {
-    return nearest_to_point(tree, point);
-}
-NearestPrimitive nearest_to_point3(const PrimitiveBvh<3>& tree, const DVec<3>& point) {
-    return nearest_to_point(tree, point);
-}
-void nearest_to_block2(const PrimitiveBvh<2>& tree, const SampleLattice<2>& lattice, const SampleBlock<2>& block,
-                       NearestPrimitive* nearest) {
-    nearest_to_block(tree, lattice, block, nearest);
-}
-void nearest_to_block3(const PrimitiveBvh<3>& tree, const SampleLattice<3>& lattice, const SampleBlock<3>& block,
-                       NearestPrimitive* nearest) {
-    nearest_to_block(tree, lattice, block, nearest);
-}
+ABUT_NAME_DIMENSIONS(nearest_to_point);
+ABUT_NAME_DIMENSIONS(nearest_to_block);
 
 }  // namespace abut::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -340,29 +329,26 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace abut::detail {
 
-HWY_EXPORT(nearest_to_point2);
-HWY_EXPORT(nearest_to_point3);
-HWY_EXPORT(nearest_to_block2);
-HWY_EXPORT(nearest_to_block3);
+ABUT_EXPORT_DIMENSIONS(nearest_to_point);
+ABUT_EXPORT_DIMENSIONS(nearest_to_block);
 
-template <>
-NearestPrimitive nearest_primitive(const PrimitiveBvh<2>& tree, const DVec<2>& point) {
-    return HWY_DYNAMIC_DISPATCH(nearest_to_point2)(tree, point);
+template <int D>
+NearestPrimitive nearest_primitive(const PrimitiveBvh<D>& tree, const DVec<D>& point) {
+    return dispatched_nearest_to_point<D>()(tree, point);
 }
-template <>
-NearestPrimitive nearest_primitive(const PrimitiveBvh<3>& tree, const DVec<3>& point) {
-    return HWY_DYNAMIC_DISPATCH(nearest_to_point3)(tree, point);
-}
-template <>
-void nearest_primitives(const PrimitiveBvh<2>& tree, const SampleLattice<2>& lattice, const SampleBlock<2>& block,
+template <int D>
+void nearest_primitives(const PrimitiveBvh<D>& tree, const SampleLattice<D>& lattice, const SampleBlock<D>& block,
                         NearestPrimitive* nearest) {
-    HWY_DYNAMIC_DISPATCH(nearest_to_block2)(tree, lattice, block, nearest);
+    dispatched_nearest_to_block<D>()(tree, lattice, block, nearest);
 }
-template <>
-void nearest_primitives(const PrimitiveBvh<3>& tree, const SampleLattice<3>& lattice, const SampleBlock<3>& block,
-                        NearestPrimitive* nearest) {
-    HWY_DYNAMIC_DISPATCH(nearest_to_block3)(tree, lattice, block, nearest);
-}
+
+#define ABUT_INSTANTIATE(D)                                                                                  \
+    template NearestPrimitive nearest_primitive(const PrimitiveBvh<D>&, const DVec<D>&);                     \
+    template void nearest_primitives(const PrimitiveBvh<D>&, const SampleLattice<D>&, const SampleBlock<D>&, \
+                                     NearestPrimitive*);
+ABUT_INSTANTIATE(2)
+ABUT_INSTANTIATE(3)
+#undef ABUT_INSTANTIATE
 
 }  // namespace abut::detail
 #endif

@@ -1,6 +1,5 @@
 #include <abut/broad_phase/boxes.hpp>
 #include <abut/broad_phase/bvh.hpp>
-#include <abut/broad_phase/bvh/pairs.hpp>
 #include <abut/broad_phase/bvh/queries.hpp>
 #include <abut/broad_phase/concept.hpp>
 #include <abut/broad_phase/detail/parallel.hpp>

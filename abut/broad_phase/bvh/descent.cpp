@@ -2,6 +2,7 @@
 // operation rounds alike on all targets, so that the tree is the same.
 
 #include <abut/broad_phase/bvh/descent.hpp>
+#include <abut/math/simd/dispatch-inl.h>
 
 #include <bit>
 #include <limits>
@@ -60,12 +61,7 @@ std::uint32_t descend(BvhNode<D>* nodes, std::uint32_t ref, const Aabb<D>& box) 
     return ref;
 }
 
-std::uint32_t descend_2(BvhNode<2>* nodes, std::uint32_t ref, const Aabb<2>& box) {
-    return descend<2>(nodes, ref, box);
-}
-std::uint32_t descend_3(BvhNode<3>* nodes, std::uint32_t ref, const Aabb<3>& box) {
-    return descend<3>(nodes, ref, box);
-}
+ABUT_NAME_DIMENSIONS(descend);
 
 }  // namespace abut::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -73,14 +69,13 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace abut::detail {
 
-HWY_EXPORT(descend_2);
-HWY_EXPORT(descend_3);
+ABUT_EXPORT_DIMENSIONS(descend);
 
 std::uint32_t descend(BvhNode<2>* nodes, std::uint32_t ref, const Aabb<2>& box) {
-    return HWY_DYNAMIC_DISPATCH(descend_2)(nodes, ref, box);
+    return dispatched_descend<2>()(nodes, ref, box);
 }
 std::uint32_t descend(BvhNode<3>* nodes, std::uint32_t ref, const Aabb<3>& box) {
-    return HWY_DYNAMIC_DISPATCH(descend_3)(nodes, ref, box);
+    return dispatched_descend<3>()(nodes, ref, box);
 }
 
 }  // namespace abut::detail

@@ -1,9 +1,8 @@
 // Simultaneous traversal of two trees, or of one tree with itself. The depth of the recursion is at most twice that of
 // a tree. Highway compiles this file once for each SIMD target and dispatches at run time.
 
-#include <abut/broad_phase/bvh/pairs.hpp>
-#include <abut/broad_phase/bvh/tree.hpp>
-#include <abut/broad_phase/detail/pair_buffer.hpp>
+#include <abut/broad_phase/bvh/queries.hpp>
+#include <abut/math/simd/dispatch-inl.h>
 
 #include <bit>
 
@@ -114,12 +113,7 @@ bool pairs_of(const BvhTree<D>& a, const BvhTree<D>& b, const BvhPairTask<D>& ta
     return traversal.between(task.a, {&boxes, 0}, task.b, {&boxes, 1});
 }
 
-bool pairs_of_2(const BvhTree<2>& a, const BvhTree<2>& b, const BvhPairTask<2>& task, PairBuffer& pairs) {
-    return pairs_of<2>(a, b, task, pairs);
-}
-bool pairs_of_3(const BvhTree<3>& a, const BvhTree<3>& b, const BvhPairTask<3>& task, PairBuffer& pairs) {
-    return pairs_of<3>(a, b, task, pairs);
-}
+ABUT_NAME_DIMENSIONS(pairs_of);
 
 }  // namespace abut::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -127,17 +121,14 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace abut::detail {
 
-HWY_EXPORT(pairs_of_2);
-HWY_EXPORT(pairs_of_3);
+ABUT_EXPORT_DIMENSIONS(pairs_of);
 
-template <>
-bool find_pairs<2>(const BvhTree<2>& a, const BvhTree<2>& b, const BvhPairTask<2>& task, PairBuffer& pairs) {
-    return HWY_DYNAMIC_DISPATCH(pairs_of_2)(a, b, task, pairs);
+template <int D>
+bool find_pairs(const BvhTree<D>& a, const BvhTree<D>& b, const BvhPairTask<D>& task, PairBuffer& pairs) {
+    return dispatched_pairs_of<D>()(a, b, task, pairs);
 }
-template <>
-bool find_pairs<3>(const BvhTree<3>& a, const BvhTree<3>& b, const BvhPairTask<3>& task, PairBuffer& pairs) {
-    return HWY_DYNAMIC_DISPATCH(pairs_of_3)(a, b, task, pairs);
-}
+template bool find_pairs(const BvhTree<2>&, const BvhTree<2>&, const BvhPairTask<2>&, PairBuffer&);
+template bool find_pairs(const BvhTree<3>&, const BvhTree<3>&, const BvhPairTask<3>&, PairBuffer&);
 
 }  // namespace abut::detail
 #endif

@@ -3,6 +3,7 @@
 // targets, so that the tree is the same.
 
 #include <abut/broad_phase/bvh/split.hpp>
+#include <abut/math/simd/dispatch-inl.h>
 
 #include <algorithm>
 #include <array>
@@ -291,18 +292,8 @@ Aabb<D> box_of_all(const BvhItem* items, std::uint32_t begin, std::uint32_t end)
     return Bounds(items, begin, end).box<D>();
 }
 
-void split_2(BvhItem* items, bool bounded, const BvhRange<2>& range, BvhRange<2>& left, BvhRange<2>& right) {
-    split_range<2>(items, bounded, range, left, right);
-}
-void split_3(BvhItem* items, bool bounded, const BvhRange<3>& range, BvhRange<3>& left, BvhRange<3>& right) {
-    split_range<3>(items, bounded, range, left, right);
-}
-Aabb<2> box_of_all_2(const BvhItem* items, std::uint32_t begin, std::uint32_t end) {
-    return box_of_all<2>(items, begin, end);
-}
-Aabb<3> box_of_all_3(const BvhItem* items, std::uint32_t begin, std::uint32_t end) {
-    return box_of_all<3>(items, begin, end);
-}
+ABUT_NAME_DIMENSIONS(split_range);
+ABUT_NAME_DIMENSIONS(box_of_all);
 
 }  // namespace abut::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -310,27 +301,22 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace abut::detail {
 
-HWY_EXPORT(split_2);
-HWY_EXPORT(split_3);
-HWY_EXPORT(box_of_all_2);
-HWY_EXPORT(box_of_all_3);
+ABUT_EXPORT_DIMENSIONS(split_range);
+ABUT_EXPORT_DIMENSIONS(box_of_all);
 
-template <>
-BvhRange<2> whole_range<2>(const BvhItem* items, std::uint32_t begin, std::uint32_t end, int depth) {
-    return {begin, end, bvh_max_leaves(end - begin), depth, HWY_DYNAMIC_DISPATCH(box_of_all_2)(items, begin, end)};
+template <int D>
+BvhRange<D> whole_range(const BvhItem* items, std::uint32_t begin, std::uint32_t end, int depth) {
+    return {begin, end, bvh_max_leaves(end - begin), depth, dispatched_box_of_all<D>()(items, begin, end)};
 }
-template <>
-BvhRange<3> whole_range<3>(const BvhItem* items, std::uint32_t begin, std::uint32_t end, int depth) {
-    return {begin, end, bvh_max_leaves(end - begin), depth, HWY_DYNAMIC_DISPATCH(box_of_all_3)(items, begin, end)};
+template <int D>
+void split(BvhItem* items, bool bounded, const BvhRange<D>& range, BvhRange<D>& left, BvhRange<D>& right) {
+    dispatched_split_range<D>()(items, bounded, range, left, right);
 }
-template <>
-void split<2>(BvhItem* items, bool bounded, const BvhRange<2>& range, BvhRange<2>& left, BvhRange<2>& right) {
-    HWY_DYNAMIC_DISPATCH(split_2)(items, bounded, range, left, right);
-}
-template <>
-void split<3>(BvhItem* items, bool bounded, const BvhRange<3>& range, BvhRange<3>& left, BvhRange<3>& right) {
-    HWY_DYNAMIC_DISPATCH(split_3)(items, bounded, range, left, right);
-}
+
+template BvhRange<2> whole_range(const BvhItem*, std::uint32_t, std::uint32_t, int);
+template BvhRange<3> whole_range(const BvhItem*, std::uint32_t, std::uint32_t, int);
+template void split(BvhItem*, bool, const BvhRange<2>&, BvhRange<2>&, BvhRange<2>&);
+template void split(BvhItem*, bool, const BvhRange<3>&, BvhRange<3>&, BvhRange<3>&);
 
 }  // namespace abut::detail
 #endif

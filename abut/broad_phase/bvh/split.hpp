@@ -44,13 +44,4 @@ BvhRange<D> whole_range(const BvhItem* items, std::uint32_t begin, std::uint32_t
 template <int D>
 void split(BvhItem* items, bool bounded, const BvhRange<D>& range, BvhRange<D>& left, BvhRange<D>& right);
 
-template <>
-BvhRange<2> whole_range<2>(const BvhItem*, std::uint32_t, std::uint32_t, int);
-template <>
-BvhRange<3> whole_range<3>(const BvhItem*, std::uint32_t, std::uint32_t, int);
-template <>
-void split<2>(BvhItem*, bool, const BvhRange<2>&, BvhRange<2>&, BvhRange<2>&);
-template <>
-void split<3>(BvhItem*, bool, const BvhRange<3>&, BvhRange<3>&, BvhRange<3>&);
-
 }  // namespace abut::detail

@@ -2,6 +2,7 @@
 // boxes, so that they report the same overlaps in the same order.
 
 #include <abut/broad_phase/detail/box_overlaps.hpp>
+#include <abut/math/simd/dispatch-inl.h>
 
 #include <array>
 #include <bit>
@@ -175,26 +176,10 @@ void bounds_of_blocks(const BoxSoaView<D>& boxes, const std::uint32_t* marks, st
     }
 }
 
-// Functions without templates, as HWY_EXPORT needs.
-#define ABUT_FOR_DIMENSION(D)                                                                                          \
-    std::uint64_t overlap_bits_##D(const BoxSoaView<D>& boxes, std::size_t first, std::size_t count,                   \
-                                   const Aabb<D>& box) {                                                               \
-        return overlap_bits_of(boxes, first, count, box);                                                              \
-    }                                                                                                                  \
-    void overlaps_##D(const BoxSoaView<D>& boxes, std::size_t first, std::size_t last, std::size_t end,                \
-                      BoxOverlapsCall visit) {                                                                         \
-        overlaps_of(boxes, first, last, end, visit);                                                                   \
-    }                                                                                                                  \
-    void sorted_overlaps_##D(const BoxSoaView<D>& boxes, std::size_t first, std::size_t last, BoxOverlapsCall visit) { \
-        sorted_overlaps_of(boxes, first, last, visit);                                                                 \
-    }                                                                                                                  \
-    void block_bounds_##D(const BoxSoaView<D>& boxes, const std::uint32_t* marks, std::uint32_t excluded,              \
-                          std::size_t blocks, std::size_t begin, BoxSoa<D>& result) {                                  \
-        bounds_of_blocks(boxes, marks, excluded, blocks, begin, result);                                               \
-    }
-ABUT_FOR_DIMENSION(2)
-ABUT_FOR_DIMENSION(3)
-#undef ABUT_FOR_DIMENSION
+ABUT_NAME_DIMENSIONS(overlap_bits_of);
+ABUT_NAME_DIMENSIONS(overlaps_of);
+ABUT_NAME_DIMENSIONS(sorted_overlaps_of);
+ABUT_NAME_DIMENSIONS(bounds_of_blocks);
 
 }  // namespace abut::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -202,59 +187,42 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace abut::detail {
 
-HWY_EXPORT(overlap_bits_2);
-HWY_EXPORT(overlap_bits_3);
-HWY_EXPORT(overlaps_2);
-HWY_EXPORT(overlaps_3);
-HWY_EXPORT(sorted_overlaps_2);
-HWY_EXPORT(sorted_overlaps_3);
-HWY_EXPORT(block_bounds_2);
-HWY_EXPORT(block_bounds_3);
+ABUT_EXPORT_DIMENSIONS(overlap_bits_of);
+ABUT_EXPORT_DIMENSIONS(overlaps_of);
+ABUT_EXPORT_DIMENSIONS(sorted_overlaps_of);
+ABUT_EXPORT_DIMENSIONS(bounds_of_blocks);
 
 template <int D>
 std::uint64_t overlap_bits(const BoxSoaView<D>& boxes, std::size_t first, std::size_t count, const Aabb<D>& box) {
-    if constexpr (D == 2)
-        return HWY_DYNAMIC_DISPATCH(overlap_bits_2)(boxes, first, count, box);
-    else
-        return HWY_DYNAMIC_DISPATCH(overlap_bits_3)(boxes, first, count, box);
+    return dispatched_overlap_bits_of<D>()(boxes, first, count, box);
 }
 
 template <int D>
 void each_overlap(const BoxSoaView<D>& boxes, std::size_t first, std::size_t last, std::size_t end,
                   BoxOverlapsCall visit) {
-    if constexpr (D == 2)
-        HWY_DYNAMIC_DISPATCH(overlaps_2)(boxes, first, last, end, visit);
-    else
-        HWY_DYNAMIC_DISPATCH(overlaps_3)(boxes, first, last, end, visit);
+    dispatched_overlaps_of<D>()(boxes, first, last, end, visit);
 }
 
 template <int D>
 void each_sorted_overlap(const BoxSoaView<D>& boxes, std::size_t first, std::size_t last, BoxOverlapsCall visit) {
-    if constexpr (D == 2)
-        HWY_DYNAMIC_DISPATCH(sorted_overlaps_2)(boxes, first, last, visit);
-    else
-        HWY_DYNAMIC_DISPATCH(sorted_overlaps_3)(boxes, first, last, visit);
+    dispatched_sorted_overlaps_of<D>()(boxes, first, last, visit);
 }
 
 template <int D>
 void block_bounds(const BoxSoaView<D>& boxes, const std::uint32_t* marks, std::uint32_t excluded, std::size_t blocks,
                   std::size_t begin, BoxSoa<D>& result) {
-    if constexpr (D == 2)
-        HWY_DYNAMIC_DISPATCH(block_bounds_2)(boxes, marks, excluded, blocks, begin, result);
-    else
-        HWY_DYNAMIC_DISPATCH(block_bounds_3)(boxes, marks, excluded, blocks, begin, result);
+    dispatched_bounds_of_blocks<D>()(boxes, marks, excluded, blocks, begin, result);
 }
 
-template std::uint64_t overlap_bits(const BoxSoaView<2>&, std::size_t, std::size_t, const Aabb<2>&);
-template std::uint64_t overlap_bits(const BoxSoaView<3>&, std::size_t, std::size_t, const Aabb<3>&);
-template void each_overlap(const BoxSoaView<2>&, std::size_t, std::size_t, std::size_t, BoxOverlapsCall);
-template void each_overlap(const BoxSoaView<3>&, std::size_t, std::size_t, std::size_t, BoxOverlapsCall);
-template void each_sorted_overlap(const BoxSoaView<2>&, std::size_t, std::size_t, BoxOverlapsCall);
-template void each_sorted_overlap(const BoxSoaView<3>&, std::size_t, std::size_t, BoxOverlapsCall);
-template void block_bounds(const BoxSoaView<2>&, const std::uint32_t*, std::uint32_t, std::size_t, std::size_t,
-                           BoxSoa<2>&);
-template void block_bounds(const BoxSoaView<3>&, const std::uint32_t*, std::uint32_t, std::size_t, std::size_t,
-                           BoxSoa<3>&);
+#define ABUT_INSTANTIATE(D)                                                                                         \
+    template std::uint64_t overlap_bits(const BoxSoaView<D>&, std::size_t, std::size_t, const Aabb<D>&);            \
+    template void each_overlap(const BoxSoaView<D>&, std::size_t, std::size_t, std::size_t, BoxOverlapsCall);       \
+    template void each_sorted_overlap(const BoxSoaView<D>&, std::size_t, std::size_t, BoxOverlapsCall);             \
+    template void block_bounds(const BoxSoaView<D>&, const std::uint32_t*, std::uint32_t, std::size_t, std::size_t, \
+                               BoxSoa<D>&);
+ABUT_INSTANTIATE(2)
+ABUT_INSTANTIATE(3)
+#undef ABUT_INSTANTIATE
 
 }  // namespace abut::detail
 #endif

@@ -4,6 +4,7 @@
 #include <abut/broad_phase/boxes.hpp>
 #include <abut/broad_phase/grid/parallel_parts.hpp>
 #include <abut/broad_phase/grid/store.hpp>
+#include <abut/math/simd/dispatch-inl.h>
 
 #include <algorithm>
 #include <array>
@@ -187,18 +188,8 @@ void mark_parts(const CellParts& parts, std::size_t count, const BoxBatch& batch
     for (std::size_t i = 0; i < count; ++i) marks[i] = static_cast<std::uint8_t>(bits[i]);
 }
 
-// Functions without templates, as HWY_EXPORT needs.
-#define ABUT_FOR_DIMENSION(D)                                                                                    \
-    void pack_all_##D(const GridCells<D>& cells, const Aabb<D>* boxes, std::size_t count, BoxBatch& batch,       \
-                      Aabb<D>* own) {                                                                            \
-        pack_all(cells, boxes, count, batch, own);                                                               \
-    }                                                                                                            \
-    void pack_list_##D(const GridCells<D>& cells, const Aabb<D>* boxes, const ItemList& list, BoxBatch& batch) { \
-        pack_list(cells, boxes, list, batch);                                                                    \
-    }
-ABUT_FOR_DIMENSION(2)
-ABUT_FOR_DIMENSION(3)
-#undef ABUT_FOR_DIMENSION
+ABUT_NAME_DIMENSIONS(pack_all);
+ABUT_NAME_DIMENSIONS(pack_list);
 
 }  // namespace abut::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -206,28 +197,11 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace abut::detail {
 
-HWY_EXPORT(pack_all_2);
-HWY_EXPORT(pack_all_3);
-HWY_EXPORT(pack_list_2);
-HWY_EXPORT(pack_list_3);
+ABUT_EXPORT_DIMENSIONS(pack_all);
+ABUT_EXPORT_DIMENSIONS(pack_list);
 HWY_EXPORT(mark_parts);
 
 namespace {
-
-template <int D>
-void pack_all(const GridCells<D>& cells, const Aabb<D>* boxes, std::size_t count, BoxBatch& batch, Aabb<D>* own) {
-    if constexpr (D == 2)
-        HWY_DYNAMIC_DISPATCH(pack_all_2)(cells, boxes, count, batch, own);
-    else
-        HWY_DYNAMIC_DISPATCH(pack_all_3)(cells, boxes, count, batch, own);
-}
-template <int D>
-void pack_list(const GridCells<D>& cells, const Aabb<D>* boxes, const ItemList& list, BoxBatch& batch) {
-    if constexpr (D == 2)
-        HWY_DYNAMIC_DISPATCH(pack_list_2)(cells, boxes, list, batch);
-    else
-        HWY_DYNAMIC_DISPATCH(pack_list_3)(cells, boxes, list, batch);
-}
 
 /// The boxes of a batch, grouped by kind. Each list has capacity for the whole batch, so that adding needs no branch.
 template <int D>
@@ -312,7 +286,7 @@ void fill_serial(const GridCells<D>& cells, std::span<const Aabb<D>> boxes, Aabb
     for (std::size_t begin = 0; begin < boxes.size() && !store.is_full(); begin += grid_batch_size) {
         const std::size_t count = std::min(grid_batch_size, boxes.size() - begin);
         const auto first = static_cast<std::uint32_t>(begin);
-        pack_all(cells, &boxes[begin], count, batch, own + begin);
+        dispatched_pack_all<D>()(cells, &boxes[begin], count, batch, own + begin);
         const BoxesByKind<D> kinds(batch, count);
         filler.add(
             batch, kinds, own, [first](std::uint32_t i) { return first + i; },
@@ -335,7 +309,7 @@ void fill_parallel(const GridCells<D>& cells, std::span<const Aabb<D>> boxes, Aa
         for (std::size_t begin = begin_batch * grid_batch_size;
              begin < std::min(end_batch * grid_batch_size, boxes.size()); begin += grid_batch_size) {
             const std::size_t count = std::min(grid_batch_size, boxes.size() - begin);
-            pack_all(cells, &boxes[begin], count, batch, own + begin);
+            dispatched_pack_all<D>()(cells, &boxes[begin], count, batch, own + begin);
             HWY_DYNAMIC_DISPATCH(mark_parts)(parts, count, batch, marks + begin);
             for (std::size_t i = 0; i < count; ++i) {
                 if (batch.kind[i] != empty_kind<D>) continue;
@@ -358,7 +332,7 @@ void fill_parallel(const GridCells<D>& cells, std::span<const Aabb<D>> boxes, Aa
                 length += marks[i] >> job & 1u;
             }
             list.length = length;
-            pack_list(cells, own, list, batch);
+            dispatched_pack_list<D>()(cells, own, list, batch);
             const BoxesByKind<D> kinds(batch, list.length);
             filler.add(
                 batch, kinds, own, [&list](std::uint32_t i) { return list.item[i]; },

@@ -1,7 +1,8 @@
 // Highway compiles this file once for each SIMD target and dispatches at run time. The order of the pairs doesn't
 // depend on the target.
 
-#include <abut/broad_phase/grid/pairs.hpp>
+#include <abut/broad_phase/grid/queries.hpp>
+#include <abut/math/simd/dispatch-inl.h>
 
 #include <algorithm>
 #include <bit>
@@ -181,14 +182,7 @@ bool visit(const GridStore& store, const Aabb<D>* boxes, std::uint32_t begin, st
     return reporter.flush();
 }
 
-bool visit_cells2(const GridStore& store, const Aabb<2>* boxes, std::uint32_t begin, std::uint32_t end,
-                  PairsCall call) {
-    return visit(store, boxes, begin, end, call);
-}
-bool visit_cells3(const GridStore& store, const Aabb<3>* boxes, std::uint32_t begin, std::uint32_t end,
-                  PairsCall call) {
-    return visit(store, boxes, begin, end, call);
-}
+ABUT_NAME_DIMENSIONS(visit);
 
 }  // namespace abut::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -196,19 +190,15 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace abut::detail {
 
-HWY_EXPORT(visit_cells2);
-HWY_EXPORT(visit_cells3);
+ABUT_EXPORT_DIMENSIONS(visit);
 
-template <>
-bool visit_cells(const GridStore& store, const Aabb<2>* boxes, std::uint32_t begin, std::uint32_t end,
+template <int D>
+bool visit_cells(const GridStore& store, const Aabb<D>* boxes, std::uint32_t begin, std::uint32_t end,
                  PairsCall visit) {
-    return HWY_DYNAMIC_DISPATCH(visit_cells2)(store, boxes, begin, end, visit);
+    return dispatched_visit<D>()(store, boxes, begin, end, visit);
 }
-template <>
-bool visit_cells(const GridStore& store, const Aabb<3>* boxes, std::uint32_t begin, std::uint32_t end,
-                 PairsCall visit) {
-    return HWY_DYNAMIC_DISPATCH(visit_cells3)(store, boxes, begin, end, visit);
-}
+template bool visit_cells(const GridStore&, const Aabb<2>*, std::uint32_t, std::uint32_t, PairsCall);
+template bool visit_cells(const GridStore&, const Aabb<3>*, std::uint32_t, std::uint32_t, PairsCall);
 
 }  // namespace abut::detail
 #endif
