@@ -26,18 +26,6 @@ bool add_pairs(std::span<const detail::BoxOverlaps> overlaps, detail::PairBuffer
     return true;
 }
 
-/// Visits the boxes that overlap `box`. Returns false if the visitor stops the search.
-template <int D>
-bool visit_overlaps(const detail::BoxSoaView<D>& boxes, std::size_t count, const Aabb<D>& box, ItemCall visit) {
-    for (std::size_t first = 0; first < count; first += 64) {
-        std::uint64_t bits = overlap_bits(boxes, first, std::min<std::size_t>(count - first, 64), box);
-        for (; bits != 0; bits &= bits - 1)
-            if (!visit(static_cast<std::uint32_t>(first) + static_cast<std::uint32_t>(std::countr_zero(bits))))
-                return false;
-    }
-    return true;
-}
-
 }  // namespace
 
 template <int D>
@@ -137,13 +125,7 @@ void BruteForce<D>::visit_pairs(PairsCall visit, Executor* executor) const {
 
 template <int D>
 void BruteForce<D>::visit_pairs(const BruteForce& other, PairsCall visit) const {
-    const detail::BoxSoaView<D> boxes = boxes_.view(), others = other.boxes_.view();
-    detail::PairBuffer pairs(visit);
-    for (std::uint32_t i = 0; i < size_; ++i) {
-        const auto add = [&](std::uint32_t j) { return pairs.add(i, j); };
-        if (!visit_overlaps(others, other.size_, boxes[i], add)) return;
-    }
-    pairs.flush();
+    detail::report_between(*this, other, visit);
 }
 
 template <int D>
@@ -156,7 +138,12 @@ void BruteForce<D>::visit_boxes(BoxCall<D> visit) const {
 template <int D>
 void BruteForce<D>::visit_overlapping(const Aabb<D>& box, ItemCall visit) const {
     const Aabb<D> query = usable(box);
-    if (!is_empty(query)) visit_overlaps(boxes_.view(), size_, query, visit);
+    if (is_empty(query)) return;
+    for (std::size_t first = 0; first < size_; first += 64) {
+        std::uint64_t bits = overlap_bits(boxes_.view(), first, std::min<std::size_t>(size_ - first, 64), query);
+        for (; bits != 0; bits &= bits - 1)
+            if (!visit(static_cast<std::uint32_t>(first) + static_cast<std::uint32_t>(std::countr_zero(bits)))) return;
+    }
 }
 
 template <int D>

@@ -1,3 +1,4 @@
+#include <abut/broad_phase/boxes.hpp>
 #include <abut/broad_phase/choose_broad_phase.hpp>
 #include <abut/broad_phase/grid/cell_size.hpp>
 #include <abut/math/simd/library_entry.hpp>
@@ -28,13 +29,6 @@ double brute_force_query_overhead(std::size_t count) {
 /// compares sixteen in 4 ns.
 constexpr double max_pairs_per_cell = 500;
 
-template <int D>
-bool is_not_empty(const Aabb<D>& box) {
-    bool result = true;
-    for (int i = 0; i < D; ++i) result = result && box.min[i] <= box.max[i];
-    return result;
-}
-
 /// The mean number of boxes in the same cell that a box of a grid is compared with. Two boxes of the sample share a
 /// cell with the same probability as any two boxes.
 template <int D>
@@ -48,7 +42,7 @@ double pairs_per_cell(std::span<const Aabb<D>> sample, std::size_t count) {
     std::array<std::uint32_t, sample_size> cell;
     std::size_t found = 0;
     for (const Aabb<D>& box : sample)
-        if (is_not_empty(box)) cell[found++] = cells.index(cells.range(box).low);
+        if (!detail::is_empty(detail::usable(box))) cell[found++] = cells.index(cells.range(box).low);
     std::sort(cell.begin(), cell.begin() + static_cast<std::ptrdiff_t>(found));
     std::size_t together = 0, run = 0;
     for (std::size_t i = 1; i < found; ++i) {

@@ -1,6 +1,6 @@
 #include <abut/broad_phase/chosen_broad_phase.hpp>
 #include <abut/broad_phase/concept.hpp>
-#include <abut/broad_phase/detail/pair_buffer.hpp>
+#include <abut/broad_phase/detail/parallel.hpp>
 #include <abut/math/simd/library_entry.hpp>
 
 #include <array>
@@ -22,17 +22,6 @@ bool first_queries_second(std::size_t count, BroadPhaseKind kind, std::size_t ot
         return static_cast<double>(queries) * overlap_query_cost[static_cast<std::size_t>(queried)];
     };
     return cost(count, other_kind) <= cost(other_count, kind);
-}
-
-/// Queries `queried` with each box of `source`. Calls report(i, j) if item i of `source` overlaps item j of `queried`;
-/// false stops.
-template <class Source, class Queried, class Report>
-void query_each_box(const Source& source, const Queried& queried, Report report) {
-    source.each_box([&](std::uint32_t i, const auto& box) {
-        bool continues = true;
-        queried.each_overlapping(box, [&](std::uint32_t j) { return continues = report(i, j); });
-        return continues;
-    });
 }
 
 }  // namespace
@@ -146,19 +135,12 @@ void ChosenBroadPhase<D>::visit_pairs(PairsCall visit, Executor* executor) const
 template <int D>
 void ChosenBroadPhase<D>::visit_pairs(const ChosenBroadPhase& other, PairsCall visit) const {
     const auto visit_between = [&]<class A, class B>(const A& own, const B& others) {
-        if constexpr (std::is_same_v<A, B>) {
+        if constexpr (std::is_same_v<A, B>)
             own.each_overlapping_pair(others, visit);
-        } else {
-            detail::PairBuffer pairs(visit);
-            bool continues = true;
-            if (first_queries_second(size(), kind(), other.size(), other.kind()))
-                query_each_box(own, others,
-                               [&](std::uint32_t i, std::uint32_t j) { return continues = pairs.add(i, j); });
-            else
-                query_each_box(others, own,
-                               [&](std::uint32_t j, std::uint32_t i) { return continues = pairs.add(i, j); });
-            if (continues) pairs.flush();
-        }
+        else if (first_queries_second(size(), kind(), other.size(), other.kind()))
+            detail::report_between(own, others, visit);
+        else
+            detail::report_between(others, own, visit, true);
     };
     std::visit(visit_between, phase_, other.phase_);
 }

@@ -53,13 +53,14 @@ void report_ranges(Executor* executor, std::size_t count, std::size_t min_count,
 }
 
 /// Reports the pairs of an item of one structure with an item of another: queries the second with each box of the
-/// first.
-template <class Phase>
-void report_between(const Phase& phase, const Phase& other, PairsCall visit) {
+/// first. If `reversed`, the item of the second comes first in a pair.
+template <class Phase, class Other>
+void report_between(const Phase& phase, const Other& other, PairsCall visit, bool reversed = false) {
     PairBuffer pairs(visit);
     bool go_on = true;
     phase.each_box([&](std::uint32_t i, const auto& box) {
-        other.each_overlapping(box, [&](std::uint32_t j) { return go_on = pairs.add(i, j); });
+        other.each_overlapping(box,
+                               [&](std::uint32_t j) { return go_on = reversed ? pairs.add(j, i) : pairs.add(i, j); });
         return go_on;
     });
     if (go_on) pairs.flush();

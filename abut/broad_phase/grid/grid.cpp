@@ -8,7 +8,6 @@
 #include <abut/broad_phase/detail/reserve_one_more.hpp>
 #include <abut/broad_phase/grid.hpp>
 #include <abut/broad_phase/grid/cell_size.hpp>
-#include <abut/broad_phase/grid/pairs.hpp>
 #include <abut/broad_phase/grid/parallel_parts.hpp>
 #include <abut/broad_phase/grid/queries.hpp>
 #include <abut/broad_phase/sweep_pieces.hpp>
@@ -241,11 +240,7 @@ void Grid<D>::visit_pairs(PairsCall visit, Executor* executor) const {
 
 template <int D>
 void Grid<D>::visit_pairs(const Grid& other, PairsCall visit) const {
-    detail::PairBuffer pairs(visit);
-    bool continues = true;
-    for (std::uint32_t j = 0; j < other.size() && continues; ++j)
-        this->each_overlapping(other.boxes_[j], [&](std::uint32_t i) { return continues = pairs.add(i, j); });
-    if (continues) pairs.flush();
+    detail::report_between(other, *this, visit, true);
 }
 
 template <int D>
