@@ -28,7 +28,7 @@ std::optional<Problem> problem_of(std::span<const Vec3> points, std::span<const 
         return Problem{ProblemCode::bad_argument, "hole_area is not between 0 and 1"};
     if (options.hole_edges > max_hole_edges)
         return Problem{ProblemCode::bad_argument, "holes to fill have more than 1000 edges"};
-    return problem_of_triangles(points, triangles, "a surface");
+    return problem_of_faces<3>(points, triangles, "a surface");
 }
 
 void count_points(std::span<const Vec3> points, std::span<const glm::uvec3> triangles, const Welded& surface,

@@ -199,7 +199,7 @@ std::vector<glm::uvec3> reachable(const WalkMesh& mesh, std::span<const Vec3> st
 Result<WalkMesh> bake_walk_mesh(std::span<const Vec3> points, std::span<const glm::uvec3> triangles,
                                 const WalkMeshBakeOptions& options) {
     if (std::optional<Problem> problem = problem_of(options)) return *std::move(problem);
-    if (std::optional<Problem> problem = problem_of_triangles(points, triangles, "a level")) return *std::move(problem);
+    if (std::optional<Problem> problem = problem_of_faces<3>(points, triangles, "a level")) return *std::move(problem);
     if (triangles.size() >= max_triangles || points.size() >= max_triangles)
         return too_large("a level has fewer than 2^28 triangles and points");
     const auto report = [&](double done) { return !options.progress || (*options.progress)(done); };

@@ -5,23 +5,29 @@
 
 namespace abut::detail {
 
-std::optional<Problem> problem_of_triangles(std::span<const Vec3> points, std::span<const glm::uvec3> triangles,
-                                            std::string_view what) {
-    if (triangles.empty())
-        return Problem{ProblemCode::empty_input, std::string(what) + " needs at least one triangle", 0};
+template <int D>
+std::optional<Problem> problem_of_faces(std::span<const Vec<D>> points,
+                                        std::span<const glm::vec<D, std::uint32_t>> faces, std::string_view what) {
+    const std::string face = D == 2 ? "segment" : "triangle";
+    if (faces.empty()) return Problem{ProblemCode::empty_input, std::string(what) + " needs at least one " + face, 0};
     for (std::size_t i = 0; i < points.size(); ++i)
         if (!is_finite(points[i]))
             return Problem{ProblemCode::not_finite,
                            "point " + std::to_string(i) + " has a coordinate that is not finite", i};
-    for (std::size_t i = 0; i < triangles.size(); ++i)
-        for (glm::length_t j = 0; j < 3; ++j)
-            if (triangles[i][j] >= points.size())
+    for (std::size_t i = 0; i < faces.size(); ++i)
+        for (int j = 0; j < D; ++j)
+            if (faces[i][j] >= points.size())
                 return Problem{ProblemCode::index_out_of_range,
-                               "triangle " + std::to_string(i) + " names point " + std::to_string(triangles[i][j]) +
-                                   " of " + std::to_string(points.size()),
+                               face + " " + std::to_string(i) + " names point " + std::to_string(faces[i][j]) + " of " +
+                                   std::to_string(points.size()),
                                i};
     return std::nullopt;
 }
+
+template std::optional<Problem> problem_of_faces<2>(std::span<const Vec2>, std::span<const glm::uvec2>,
+                                                    std::string_view);
+template std::optional<Problem> problem_of_faces<3>(std::span<const Vec3>, std::span<const glm::uvec3>,
+                                                    std::string_view);
 
 bool has_zero_area(const Vec3& a, const Vec3& b, const Vec3& c) {
     const DVec<3> ab = DVec<3>(b) - DVec<3>(a);

@@ -1,14 +1,15 @@
 #include <abut/math/assert.hpp>
 #include <abut/math/detail/coincident.hpp>
 #include <abut/math/simd/library_entry.hpp>
+#include <abut/shape/detail/line_crossing.hpp>
 #include <abut/shape/mesh.hpp>
 #include <abut/shape/mesh/check_triangles.hpp>
 #include <abut/shape/mesh/surface.hpp>
 
-#include <algorithm>
-#include <array>
+#include <limits>
+#include <memory>
 #include <optional>
-#include <tuple>
+#include <utility>
 #include <vector>
 
 namespace abut {
@@ -17,47 +18,19 @@ using namespace detail;
 
 namespace {
 
-constexpr glm::length_t x = 0, y = 1, z = 2;
-
-bool before(const Vec3& a, const Vec3& b) {
-    return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
-}
-
-/// Twice the signed area of a, b and the point, projected along x; positive on the left of ab. An edge gives the same
-/// value in both directions (up to the sign), so that adjacent triangles agree about every point.
-double side(const Vec3& a, const Vec3& b, const Vec3& point) {
-    if (before(b, a)) return -side(b, a, point);
-    const DVec<3> from(a), ab = DVec<3>(b) - from, ap = DVec<3>(point) - from;
-    return ab[y] * ap[z] - ab[z] * ap[y];
-}
-
-/// The signed crossing of the triangle by the line through the point along x: 1, -1 or 0.
-int winding_number(const Triangle3& t, const Vec3& point) {
-    int winding = 0;
-    const std::array<Vec3, 4> corner{t.a, t.b, t.c, t.a};
-    for (std::size_t i = 0; i < 3; ++i) {
-        const bool from_below = corner[i].z <= point.z, to_below = corner[i + 1].z <= point.z;
-        if (from_below == to_below) continue;
-        const double left = side(corner[i], corner[i + 1], point);
-        if (from_below && left > 0) ++winding;
-        if (to_below && left < 0) --winding;
-    }
-    return winding;
-}
-
 /// True if the plane of the triangle lies at larger x than the point.
 bool is_beyond(const Triangle3& t, const Vec3& point) {
     const DVec<3> a(t.a);
     const DVec<3> normal = cross(DVec<3>(t.b) - a, DVec<3>(t.c) - a);
     const double height = dot(normal, DVec<3>(point) - a);
-    return normal[x] > 0 ? height < 0 : height > 0;
+    return normal.x > 0 ? height < 0 : height > 0;
 }
 
 }  // namespace
 
 Result<Mesh> Mesh::build(std::span<const Vec3> points, std::span<const glm::uvec3> triangles) {
     detail::enter_library();
-    if (std::optional<Problem> problem = problem_of_triangles(points, triangles, "a mesh")) return *std::move(problem);
+    if (std::optional<Problem> problem = problem_of_faces<3>(points, triangles, "a mesh")) return *std::move(problem);
     auto data = std::make_shared<MeshSurface>();
     data->points.assign(points.begin(), points.end());
     data->triangles.assign(triangles.begin(), triangles.end());
@@ -132,7 +105,7 @@ bool solid_contains(const Mesh& mesh, const Vec3& point) {
     int winding = 0;
     find_overlapping(mesh.data_->tree, ahead, [&](std::uint32_t index) -> bool {
         const Triangle3 t = mesh.triangle(index);
-        const int crossing = winding_number(t, point);
+        const int crossing = crossing_by_line({DVec<3>(t.a), DVec<3>(t.b), DVec<3>(t.c)}, DVec<3>(point), 0);
         if (crossing != 0 && is_beyond(t, point)) winding += crossing;
         return true;
     });

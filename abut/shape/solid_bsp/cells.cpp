@@ -1,5 +1,7 @@
+// Convex cells of the solid part of a tree.
+
 #include <abut/convex/manifold/clip.hpp>
-#include <abut/shape/solid_bsp/cells.hpp>
+#include <abut/shape/solid_bsp/tree.hpp>
 
 #include <algorithm>
 #include <cmath>

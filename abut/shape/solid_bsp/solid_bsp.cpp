@@ -1,12 +1,13 @@
 #include <abut/math/assert.hpp>
 #include <abut/math/predicates.hpp>
 #include <abut/math/simd/library_entry.hpp>
+#include <abut/shape/mesh/check_triangles.hpp>
 #include <abut/shape/solid_bsp.hpp>
-#include <abut/shape/solid_bsp/cells.hpp>
 #include <abut/shape/solid_bsp/tree.hpp>
 #include <abut/shape/solid_bsp/winding.hpp>
 
-#include <string>
+#include <optional>
+#include <utility>
 
 namespace abut {
 
@@ -24,39 +25,16 @@ bool has_extent(const SolidTree<3>& tree, const glm::uvec3& face) {
     return !on_line(tree.points[face.x], tree.points[face.y], tree.points[face.z]);
 }
 
+/// Whether a leaf that contains the point is solid.
 template <int D>
-std::optional<Problem> problem_of(std::span<const Vec<D>> points, std::span<const glm::vec<D, std::uint32_t>> faces) {
-    const std::string face = D == 2 ? "segment " : "triangle ";
-    if (faces.empty()) return Problem{ProblemCode::empty_input, "a level needs at least one face", 0};
-    for (std::size_t i = 0; i < points.size(); ++i)
-        if (!is_finite(points[i]))
-            return Problem{ProblemCode::not_finite,
-                           "point " + std::to_string(i) + " has a coordinate that is not finite", i};
-    for (std::size_t i = 0; i < faces.size(); ++i)
-        for (int j = 0; j < D; ++j)
-            if (faces[i][j] >= points.size())
-                return Problem{ProblemCode::index_out_of_range,
-                               face + std::to_string(i) + " names point " + std::to_string(faces[i][j]) + " of " +
-                                   std::to_string(points.size()),
-                               i};
-    return std::nullopt;
-}
-
-/// The leaves that contain a point: whether some, and whether all, are solid.
-template <int D>
-struct LeafSummary {
-    bool some = false, all = true;
-};
-template <int D>
-void classify(const SolidTree<D>& tree, std::uint32_t at, const Vec<D>& point, LeafSummary<D>& around) {
+bool is_in_solid_leaf(const SolidTree<D>& tree, std::uint32_t at, const Vec<D>& point) {
     while (at < open_leaf) {
         const SolidNode<D>& node = tree.nodes[at];
         const int side = side_of(tree, node.plane, point);
-        if (side == 0) classify(tree, node.back, point, around);
+        if (side == 0 && is_in_solid_leaf(tree, node.back, point)) return true;
         at = side < 0 ? node.back : node.front;
     }
-    around.some = around.some || at == solid_leaf;
-    around.all = around.all && at == solid_leaf;
+    return at == solid_leaf;
 }
 
 template <int D>
@@ -80,7 +58,7 @@ bool visit_pieces(const SolidTree<D>& tree, std::uint32_t at, const Vec<D>& eye,
 template <int D>
 Result<SolidBsp<D>> SolidBsp<D>::build(std::span<const Vec<D>> points, std::span<const Face> faces) {
     detail::enter_library();
-    if (auto problem = problem_of<D>(points, faces)) return *std::move(problem);
+    if (std::optional<Problem> problem = problem_of_faces<D>(points, faces, "a level")) return *std::move(problem);
     auto tree = std::make_shared<SolidTree<D>>();
     tree->points.assign(points.begin(), points.end());
     tree->faces.assign(faces.begin(), faces.end());
@@ -113,10 +91,7 @@ bool SolidBsp<D>::contains(const Vec<D>& point) const {
     detail::enter_library();
     const bool finite = is_finite(point);
     ABUT_ASSERT(finite);
-    if (!finite) return false;
-    LeafSummary<D> around;
-    classify(*tree_, tree_->root, point, around);
-    return around.some;
+    return finite && is_in_solid_leaf(*tree_, tree_->root, point);
 }
 
 template <int D>

@@ -1,12 +1,13 @@
-// Winding numbers by signed crossings of an axis-parallel line. The vertices of a face are ordered half-open in one
-// coordinate, so a line through a vertex or edge crosses exactly one of the faces that share it.
+// Winding numbers by signed crossings of an axis-parallel line.
 
 #include <abut/math/detail/coincident.hpp>
+#include <abut/shape/detail/line_crossing.hpp>
+#include <abut/shape/mesh/half_edges.hpp>
 #include <abut/shape/solid_bsp/winding.hpp>
+#include <abut/shape/weld.hpp>
 
 #include <algorithm>
 #include <array>
-#include <tuple>
 
 namespace abut::detail {
 namespace {
@@ -18,15 +19,9 @@ struct Crossing {
     bool faces_ahead = false;
 };
 
-constexpr int next_axis(int axis, int steps, int dimension) {
-    return (axis + steps) % dimension;
-}
-
-DVec<2> corner_of(const SolidTree<2>& tree, std::uint32_t face, int corner) {
-    return DVec<2>(tree.points[tree.faces[face][corner]]);
-}
-DVec<3> corner_of(const SolidTree<3>& tree, std::uint32_t face, int corner) {
-    return DVec<3>(tree.points[tree.faces[face][corner]]);
+template <int D>
+DVec<D> corner_of(const SolidTree<D>& tree, std::uint32_t face, int corner) {
+    return DVec<D>(tree.points[tree.faces[face][corner]]);
 }
 
 Crossing crossing(const SolidTree<2>& tree, std::uint32_t face, const SolidPlane<2>& plane, const DVec<2>& place,
@@ -38,29 +33,10 @@ Crossing crossing(const SolidTree<2>& tree, std::uint32_t face, const SolidPlane
     return {plane.normal[ahead] > 0 ? 1 : -1, dot(plane.normal, place) - plane.offset, plane.normal[ahead] > 0};
 }
 
-bool before(const DVec<3>& a, const DVec<3>& b) {
-    return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
-}
-
-/// The side of the line from a to b in the projection along an axis; equal for both faces of an edge.
-double left_of(const DVec<3>& a, const DVec<3>& b, const DVec<3>& place, int v, int w) {
-    if (before(b, a)) return -left_of(b, a, place, v, w);
-    return (b[v] - a[v]) * (place[w] - a[w]) - (b[w] - a[w]) * (place[v] - a[v]);
-}
-
 Crossing crossing(const SolidTree<3>& tree, std::uint32_t face, const SolidPlane<3>& plane, const DVec<3>& place,
                   int ahead) {
-    const int v = next_axis(ahead, 1, 3), w = next_axis(ahead, 2, 3);
-    int winding = 0;
-    for (int i = 0; i < 3; ++i) {
-        const DVec<3> from = corner_of(tree, face, i), to = corner_of(tree, face, (i + 1) % 3);
-        const bool from_below = from[w] <= place[w], to_below = to[w] <= place[w];
-        if (from_below == to_below) continue;
-        const double left = left_of(from, to, place, v, w);
-        if (from_below && left > 0) ++winding;
-        if (to_below && left < 0) --winding;
-    }
-    return {winding, dot(plane.normal, place) - plane.offset, plane.normal[ahead] > 0};
+    const std::array<DVec<3>, 3> corners{corner_of(tree, face, 0), corner_of(tree, face, 1), corner_of(tree, face, 2)};
+    return {crossing_by_line(corners, place, ahead), dot(plane.normal, place) - plane.offset, plane.normal[ahead] > 0};
 }
 
 /// True if each vertex has equally many incoming and outgoing segments.
@@ -78,24 +54,7 @@ bool is_closed(const SolidTree<2>& tree) {
 }
 
 bool is_closed(const SolidTree<3>& tree) {
-    const std::vector<std::uint32_t> first = first_coincident(tree.points);
-    std::vector<std::tuple<std::uint32_t, std::uint32_t, int>> edges;  // lower point, higher point, direction
-    edges.reserve(3 * tree.faces.size());
-    for (const glm::uvec3& face : tree.faces)
-        for (glm::length_t i = 0; i < 3; ++i) {
-            const std::uint32_t from = first[face[i]], to = first[face[(i + 1) % 3]];
-            if (from != to) edges.emplace_back(std::min(from, to), std::max(from, to), from < to ? 1 : -1);
-        }
-    std::sort(edges.begin(), edges.end());
-    int balance = 0;
-    for (std::size_t i = 0; i < edges.size(); ++i) {
-        const auto& [low, high, direction] = edges[i];
-        balance += direction;
-        const bool last =
-            i + 1 == edges.size() || std::get<0>(edges[i + 1]) != low || std::get<1>(edges[i + 1]) != high;
-        if (last && balance != 0) return false;
-    }
-    return true;
+    return edge_faults(weld(tree.points, tree.faces).triangles).closed;
 }
 
 /// Twice the signed area or six times the signed volume: positive if the faces bound a finite solid.

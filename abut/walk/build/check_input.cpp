@@ -15,7 +15,7 @@ constexpr float max_coordinate = 1e15f;
 
 std::optional<Problem> problem_of_walk_mesh(std::span<const Vec3> points, std::span<const glm::uvec3> triangles,
                                             std::span<const Vec3> normals, std::span<const std::uint8_t> areas) {
-    if (std::optional<Problem> problem = problem_of_triangles(points, triangles, "a walk mesh")) return problem;
+    if (std::optional<Problem> problem = problem_of_faces<3>(points, triangles, "a walk mesh")) return problem;
     if (triangles.size() >= max_triangles)
         return Problem{ProblemCode::too_large, "a walk mesh has fewer than 2^28 triangles"};
     for (std::size_t i = 0; i < points.size(); ++i)
