@@ -239,10 +239,6 @@ double gap_along(const DVec<3>& direction, const Corners& a, const Corners& b) {
     return first - last;
 }
 
-}  // namespace
-
-namespace {
-
 /// Searches the area of one normal, or of any.
 SolidContactArea area_of(const PlacedSolid& a, const PlacedSolid& moved, const DVec<3>& normal, double tolerance,
                          bool any_normal) {

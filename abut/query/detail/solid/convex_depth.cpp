@@ -4,7 +4,6 @@
 // through which a move left the solid. A search over moves to where planes meet takes care of notches.
 
 #include <abut/convex/gjk/gjk.hpp>
-#include <abut/math/detail/next_float.hpp>
 #include <abut/query/detail/pair_dispatch.hpp>
 #include <abut/query/detail/solid/convex_depth.hpp>
 #include <abut/query/detail/solid/placed_solid.hpp>
@@ -20,8 +19,6 @@
 
 namespace abut::detail {
 namespace {
-
-constexpr double unlimited = std::numeric_limits<double>::infinity();
 
 /// A point of a convex core, near its middle.
 DVec<3> middle_of_core(const Convex<3>& set) {
@@ -58,7 +55,7 @@ std::optional<Convex<3>> eroded(const Convex<3>& set, const DVec<3>& middle, dou
     return result;
 }
 
-class ConvexSearch {
+class ConvexSearch : LeastMoveSearch {
 public:
     ConvexSearch(const View<3>& solid, const Convex<3>& set)
         : surface_(surface_view(solid)), solid_(solid), set_(set), middle_(middle_of_core(set)) {
@@ -93,8 +90,8 @@ public:
             for (const double sign : {1.0, -1.0})
                 if (!is_least()) try_direction(axis<3>(i, sign));
         if (!is_least()) try_triangles_near();
-        if (!is_least() && best_distance_ < unlimited) search_meets();
-        if (!(best_distance_ < unlimited)) leave_box();
+        if (!is_least() && best_distance_ < unlimited_move) search_meets(max_meets, 2 * tolerance_);
+        if (!(best_distance_ < unlimited_move)) leave_box(solid_.box(), bounds(set_));
         write(closest);
         return true;
     }
@@ -146,13 +143,12 @@ private:
     }
     bool is_inside_point(const DVec<3>& point) const { return solid_.side_of(point) == PointSide::inside; }
 
-    bool parts(const DVec<3>& move) const {
+    bool parts(const DVec<3>& move) const override {
         bool any = false;
         each_crossing(move, [&](const Convex<3>&) { return !(any = true); });
         return !any && !is_inside_at(move);
     }
 
-    double limit() const { return best_distance_ - tolerance_; }
     bool is_least() const { return best_distance_ <= least_possible_ * 1.01 + tolerance_; }
 
     /// No move is shorter than the radius of a ball in the set, less the signed distance of its centre.
@@ -172,30 +168,17 @@ private:
             offer(set_.place.point(DVec<3>(set_.vertices()[i])));
     }
 
-    void try_direction(DVec<3> direction) {
-        // The plane through which a move leaves may be nearer along its own normal.
-        for (int i = 0; i < 4; ++i) {
-            if (crosses_until_limit(direction)) return;
-            DVec<3> normal(0.0);
-            const double exit = exit_along(direction, limit(), normal);
-            if (!(exit < limit()) || !take(direction, exit)) return;
-            if (length_squared(normal) < 0.5 || dot(normal, direction) > 1 - 1e-9) return;
-            direction = normal;
-        }
-    }
-
-    /// Whether one of the first triangles that the set crosses at the start is still crossed at the limit, and so in
+    /// False if one of the first triangles that the set crosses at the start is still crossed at the limit, and so in
     /// between.
-    bool crosses_until_limit(const DVec<3>& direction) const {
-        if (!(limit() < unlimited)) return false;
-        return std::any_of(crossed_.begin(), crossed_.begin() + static_cast<std::ptrdiff_t>(crossed_count_),
-                           [&](const Convex<3>& triangle) { return crosses(triangle, direction * limit()); });
+    bool may_improve(const DVec<3>& direction) override {
+        if (!(limit() < unlimited_move)) return true;
+        return std::none_of(crossed_.begin(), crossed_.begin() + static_cast<std::ptrdiff_t>(crossed_count_),
+                            [&](const Convex<3>& triangle) { return crosses(triangle, direction * limit()); });
     }
 
-    /// How far the set goes along a direction until it is parted from the solid for the first time; infinite if that is
-    /// beyond the limit.
-    double exit_along(const DVec<3>& direction, double limit, DVec<3>& normal) const {
+    Exit exit_along(const DVec<3>& direction, double limit) override {
         double distance = 0;
+        DVec<3> normal(0.0);
         for (int i = 0; i < max_steps && distance < limit; ++i) {
             const double before = distance;
             each_crossing(direction * before, [&](const Convex<3>& triangle) {
@@ -204,11 +187,11 @@ private:
                 return distance < limit;
             });
             if (distance > before) continue;
-            if (!is_inside_at(direction * distance)) return distance;
+            if (!is_inside_at(direction * distance)) return {distance, normal};
             const double gap = static_cast<double>(closest(surface_, View<3>(moved_by(direction * distance))).distance);
             distance += std::max(gap, 0.0) + 2 * tolerance_;
         }
-        return unlimited;
+        return {};
     }
 
     /// How far the set goes until it no longer crosses a triangle, which it crosses now. The distance of two convex
@@ -219,7 +202,7 @@ private:
             dot(direction, core_support(triangle, direction).position - core_support(set_, -direction).position) +
             set_.radius;
         if (distance > limit) {
-            if (crosses(triangle, direction * limit)) return unlimited;
+            if (crosses(triangle, direction * limit)) return unlimited_move;
             distance = limit;
         }
         for (int i = 0; i < max_steps; ++i) {
@@ -230,22 +213,6 @@ private:
             distance -= gap.distance / speed;
         }
         return std::max(distance, from + tolerance_);
-    }
-
-    /// Takes a move that parts the two in double, if it does so as floats too, or slightly longer.
-    bool take(const DVec<3>& direction, double distance) {
-        const Vec3 normal = to_float(direction);
-        auto depth = static_cast<float>(distance);
-        for (const double longer : {0.0, 1.0, 4.0}) {
-            if (static_cast<double>(depth) >= best_distance_) return false;
-            if (parts(DVec<3>(normal) * static_cast<double>(depth))) {
-                best_normal_ = normal;
-                best_distance_ = static_cast<double>(depth);
-                return true;
-            }
-            depth = std::max(next_up(depth), static_cast<float>(distance + tolerance_ + longer * float_step_));
-        }
-        return false;
     }
 
     void try_triangles_near() {
@@ -266,51 +233,24 @@ private:
         return solid_.is_flipped() ? -normal : normal;
     }
 
-    /// Moves to where planes meet, nearest first: each of the planes is one to which the set must move so that a
-    /// triangle parts that it crosses after a move.
-    void search_meets() {
-        const auto take_meet = [&](const MeetOfPlanes& meet) {
-            return meet.distance < limit() && parts(meet.move) && take(meet.move / meet.distance, meet.distance);
-        };
-        MoveQueue queue;
-        queue.add({}, limit());
-        for (int i = 0; i < max_meets && !is_least(); ++i) {
-            const std::optional<MeetOfPlanes> next = queue.take_nearest();
-            if (!next || next->distance >= limit()) return;
-            if (next->count > 0 && (take_meet(*next) || take_meet(farther_by(*next, 2 * tolerance_)))) return;
-            NearestPlanes planes;
-            std::size_t count = 0;
-            each_crossing(next->move, [&](const Convex<3>& triangle) {
-                const SignedDistance<3> crossing = distance_from(triangle, moved_by(next->move));
-                planes.add({crossing.normal, dot(crossing.normal, next->move) - crossing.distance}, limit());
-                const DVec<3> normal = normal_of(triangle);
-                const double depth = dot(normal, triangle.place.point(DVec<3>(triangle.vertices()[0]))) -
-                                     dot(normal, core_support(set_, -normal).position) + set_.radius;
-                planes.add({normal, depth}, limit());
-                return ++count < crossed_.size();
-            });
-            for (const MovePlane& plane : planes.all())
-                if (const std::optional<MeetOfPlanes> farther = with_plane(*next, plane)) queue.add(*farther, limit());
-        }
-    }
-
-    /// The move out of the box along the best axis.
-    void leave_box() {
-        const Aabb3 solid = solid_.box(), set = bounds(set_);
-        for (int i = 0; i < 3; ++i)
-            for (const bool up : {true, false}) {
-                const float depth = next_up(up ? solid.max[i] - set.min[i] : set.max[i] - solid.min[i]);
-                if (static_cast<double>(depth) >= best_distance_) continue;
-                best_distance_ = static_cast<double>(depth);
-                best_normal_ = to_float(axis<3>(i, up ? 1 : -1));
-            }
+    void collect_planes(const DVec<3>& move, NearestPlanes& planes) const override {
+        std::size_t count = 0;
+        each_crossing(move, [&](const Convex<3>& triangle) {
+            const SignedDistance<3> crossing = distance_from(triangle, moved_by(move));
+            planes.add({crossing.normal, dot(crossing.normal, move) - crossing.distance}, limit());
+            const DVec<3> normal = normal_of(triangle);
+            const double depth = dot(normal, triangle.place.point(DVec<3>(triangle.vertices()[0]))) -
+                                 dot(normal, core_support(set_, -normal).position) + set_.radius;
+            planes.add({normal, depth}, limit());
+            return ++count < crossed_.size();
+        });
     }
 
     void write(Closest<3>& result) const {
-        const DVec<3> move = DVec<3>(best_normal_) * best_distance_;
+        const DVec<3> move = DVec<3>(best_.normal) * best_distance_;
         const Closest<3> touch = closest(surface_, View<3>(moved_by(move)));
         result.distance = static_cast<float>(-best_distance_);
-        result.normal = best_normal_;
+        result.normal = best_.normal;
         result.on_a = touch.on_a;
         result.on_b = to_float(DVec<3>(touch.on_a) - move);
         result.feature_a = touch.feature_a;
@@ -327,8 +267,7 @@ private:
     DVec<3> middle_, nearest_direction_{0.0};
     std::array<Convex<3>, 8> crossed_;  ///< at the start
     std::size_t crossed_count_ = 0;
-    double tolerance_ = 0, float_step_ = 0, least_possible_ = 0, best_distance_ = unlimited;
-    Vec3 best_normal_{1, 0, 0};
+    double least_possible_ = 0;
 };
 
 }  // namespace

@@ -1,5 +1,7 @@
+// The order of half-planes around an edge.
+
 #include <abut/math/detail/exact_orientation.hpp>
-#include <abut/query/detail/solid/edge_fan.hpp>
+#include <abut/query/detail/solid/placed_solid.hpp>
 
 #include <algorithm>
 #include <utility>

@@ -1,5 +1,4 @@
 #include <abut/math/detail/exact_orientation.hpp>
-#include <abut/query/detail/solid/edge_fan.hpp>
 #include <abut/query/detail/solid/interior_overlap.hpp>
 
 #include <algorithm>

@@ -55,6 +55,10 @@ private:
     bool is_reversed_ = false;
 };
 
+/// Whether two solids with the same axis share a sector around it, by exact predicates. Of a fan of fewer than two
+/// blades, beside a triangle of zero area, nothing but the backs of its blades is known to be inside.
+bool fans_overlap(const EdgeFan& a, const EdgeFan& b);
+
 enum class PointSide : std::uint8_t { outside, on_surface, inside };
 
 /// Refers to the shape. All answers are exact for the corners, which are the shape's points placed in double.

@@ -1,7 +1,7 @@
+#include <abut/math/detail/next_float.hpp>
 #include <abut/query/detail/solid/plane_meets.hpp>
 
 #include <algorithm>
-#include <limits>
 
 namespace abut::detail {
 namespace {
@@ -108,6 +108,67 @@ void MoveQueue::add(const MeetOfPlanes& meet, double limit) {
 std::optional<MeetOfPlanes> MoveQueue::take_nearest() {
     if (count_ == 0) return std::nullopt;
     return sorted_[--count_];
+}
+
+bool LeastMoveSearch::take(const DVec<3>& direction, double distance) {
+    const Vec3 normal = to_float(direction);
+    auto depth = static_cast<float>(distance);
+    for (const double longer : {0.0, 0.0, 1.0, 4.0}) {
+        if (static_cast<double>(depth) >= best_distance_) return false;
+        if (parts(DVec<3>(normal) * static_cast<double>(depth))) {
+            best_ = {normal, depth};
+            best_distance_ = static_cast<double>(depth);
+            return true;
+        }
+        depth = std::max(next_up(depth), static_cast<float>(distance + tolerance_ + longer * float_step_));
+    }
+    return false;
+}
+
+void LeastMoveSearch::try_direction(DVec<3> direction) {
+    // The plane through which a move leaves may be nearer along its own normal.
+    for (int i = 0; i < 4; ++i) {
+        if (!may_improve(direction)) return;
+        const Exit exit = exit_along(direction, limit());
+        if (!(exit.distance < limit())) return;
+        take(direction, exit.distance);
+        if (length_squared(exit.normal) < 0.5 || dot(exit.normal, direction) > 1 - 1e-9) return;
+        direction = exit.normal;
+    }
+}
+
+void LeastMoveSearch::leave_box(const Aabb<3>& a, const Aabb<3>& b) {
+    for (int i = 0; i < 3; ++i)
+        for (const double sign : {1.0, -1.0}) {
+            const double distance = sign > 0 ? static_cast<double>(a.max[i]) - static_cast<double>(b.min[i])
+                                             : static_cast<double>(b.max[i]) - static_cast<double>(a.min[i]);
+            if (distance >= best_distance_) continue;
+            best_ = {to_float(axis<3>(i, sign)), next_up(static_cast<float>(distance))};
+            best_distance_ = static_cast<double>(best_.depth);
+        }
+}
+
+void LeastMoveSearch::search_meets(int max_meets, double farther) {
+    MoveQueue queue;
+    queue.add({}, limit());
+    for (int i = 0; i < max_meets; ++i) {
+        const std::optional<MeetOfPlanes> next = queue.take_nearest();
+        if (!next || next->distance >= limit()) return;
+        if (next->count > 0 && (take_meet(*next) || take_meet(farther_by(*next, farther)))) return;
+        NearestPlanes planes;
+        collect_planes(next->move, planes);
+        for (const MovePlane& plane : planes.all())
+            if (const std::optional<MeetOfPlanes> meet = with_plane(*next, plane)) queue.add(*meet, limit());
+    }
+}
+
+bool LeastMoveSearch::take_meet(const MeetOfPlanes& meet) {
+    if (!(meet.distance < limit()) || !parts(meet.move)) return false;
+    const DVec<3> direction = meet.move / meet.distance;
+    if (!take(direction, meet.distance)) return false;
+    // The planes are those of triangles, which a part of the move may leave already.
+    try_direction(direction);
+    return true;
 }
 
 }  // namespace abut::detail

@@ -12,7 +12,6 @@
 #include <abut/math/detail/next_float.hpp>
 #include <abut/query/detail/solid/interior_overlap.hpp>
 #include <abut/query/detail/solid/move_cover.hpp>
-#include <abut/query/detail/solid/plane_meets.hpp>
 #include <abut/query/detail/solid/separating_move.hpp>
 #include <abut/query/detail/solid/slide_interval.hpp>
 
@@ -22,8 +21,6 @@
 
 namespace abut::detail {
 namespace {
-
-constexpr double unlimited_move = std::numeric_limits<double>::infinity();
 
 double extent_of(const Aabb3& box) {
     return length(DVec<3>(box.max) - DVec<3>(box.min));
@@ -48,7 +45,7 @@ private:
     std::size_t count_ = 0, next_ = 0;
 };
 
-class MoveSearch {
+class MoveSearch : LeastMoveSearch {
 public:
     MoveSearch(const View<3>& shape_a, const View<3>& shape_b) : a_(shape_a), b_(shape_b), cover_(a_, b_) {
         const double smaller = std::min(extent_of(a_.box()), extent_of(b_.box()));
@@ -63,14 +60,14 @@ public:
     }
 
     SeparatingMove find() {
-        leave_box();
+        leave_box(a_.box(), b_.box());
         for (int i = 0; i < 3; ++i)
             for (const double sign : {1.0, -1.0}) try_direction(axis<3>(i, sign));
         each_face_direction([&](const DVec<3>& direction) {
             try_direction(direction);
             return !is_least();
         });
-        if (!is_least()) search_meets();
+        if (!is_least()) search_meets(max_meets_, step_);
         return best_;
     }
 
@@ -92,63 +89,17 @@ private:
         }
     }
 
-    struct Exit {
-        double distance = unlimited_move;
-        DVec<3> normal{0.0};  ///< of the last plane
-    };
-
-    double limit() const { return best_distance_ * (1 - 1e-9); }
-
     bool is_least() const { return best_distance_ <= cover_.min_distance() * (1 + 1e-5); }
 
-    bool parts(const DVec<3>& move) const {
+    bool parts(const DVec<3>& move) const override {
         return !cover_.has_ball_at(move) && !interiors_overlap(a_, b_.moved(move), move);
     }
 
-    /// Takes a move that parts the solids in double, if it does so as floats too, or slightly longer.
-    bool take(const DVec<3>& direction, double distance) {
-        const Vec3 normal = to_float(direction);
-        auto depth = static_cast<float>(distance);
-        for (const double longer : {0.0, 0.0, 1.0, 4.0}) {
-            if (static_cast<double>(depth) >= best_distance_) return false;
-            if (parts(DVec<3>(normal) * static_cast<double>(depth))) {
-                best_ = {normal, depth};
-                best_distance_ = static_cast<double>(depth);
-                return true;
-            }
-            depth = std::max(next_up(depth), static_cast<float>(distance + longer * float_step_));
-        }
-        return false;
+    bool may_improve(const DVec<3>& direction) override {
+        return !cover_.has_ball_along(direction, limit()) && tried_.add(direction);
     }
 
-    /// The move out of the box along the best axis.
-    void leave_box() {
-        for (int i = 0; i < 3; ++i)
-            for (const double sign : {1.0, -1.0}) {
-                const double distance =
-                    sign > 0 ? static_cast<double>(a_.box().max[i]) - static_cast<double>(b_.box().min[i])
-                             : static_cast<double>(b_.box().max[i]) - static_cast<double>(a_.box().min[i]);
-                if (distance >= best_distance_) continue;
-                best_ = {to_float(axis<3>(i, sign)), next_up(static_cast<float>(distance))};
-                best_distance_ = static_cast<double>(best_.depth);
-            }
-    }
-
-    void try_direction(DVec<3> direction) {
-        // The plane through which a move leaves may be nearer along its own normal.
-        for (int i = 0; i < 4; ++i) {
-            if (cover_.has_ball_along(direction, limit()) || !tried_.add(direction)) return;
-            const Exit exit = exit_along(direction, limit());
-            if (exit.distance >= limit()) return;
-            take(direction, exit.distance);
-            if (length_squared(exit.normal) < 0.5 || dot(exit.normal, direction) > 1 - 1e-9) return;
-            direction = exit.normal;
-        }
-    }
-
-    /// How far B goes along a direction until it is parted from A for the first time; infinite if that is beyond the
-    /// limit.
-    Exit exit_along(const DVec<3>& direction, double limit) {
+    Exit exit_along(const DVec<3>& direction, double limit) override {
         Exit exit;
         double distance = 0;
         for (int i = 0; i < 256; ++i) {
@@ -229,8 +180,7 @@ private:
         return next;
     }
 
-    /// Visits the planes to which B must move at least, so that some of the triangles part that cross after a move.
-    void collect_planes(const DVec<3>& move, NearestPlanes& planes) const {
+    void collect_planes(const DVec<3>& move, NearestPlanes& planes) const override {
         each_triangle_pair(
             a_, b_.moved(move), 0,
             [&](std::uint32_t, const Corners& a, std::uint32_t, const Corners& b) {
@@ -254,30 +204,6 @@ private:
             move);
     }
 
-    /// Moves to where planes meet, nearest first.
-    void search_meets() {
-        MoveQueue queue;
-        queue.add({}, limit());
-        for (int i = 0; i < max_meets_; ++i) {
-            const std::optional<MeetOfPlanes> next = queue.take_nearest();
-            if (!next || next->distance >= limit()) return;
-            if (next->count > 0 && (take_meet(*next) || take_meet(farther_by(*next, step_)))) return;
-            NearestPlanes planes;
-            collect_planes(next->move, planes);
-            for (const MovePlane& plane : planes.all())
-                if (const std::optional<MeetOfPlanes> farther = with_plane(*next, plane)) queue.add(*farther, limit());
-        }
-    }
-
-    bool take_meet(const MeetOfPlanes& meet) {
-        if (!(meet.distance < limit()) || !parts(meet.move)) return false;
-        const DVec<3> direction = meet.move / meet.distance;
-        if (!take(direction, meet.distance)) return false;
-        // The planes are those of triangles, which a part of the move may leave already.
-        try_direction(direction);
-        return true;
-    }
-
     static constexpr int max_crossings = 4;
 
     /// Coarser solids have so few directions that balls don't pay, and larger faces, whose planes meet in notches.
@@ -286,10 +212,7 @@ private:
 
     PlacedSolid a_, b_;
     MoveCover cover_;
-    double step_ = 0;        ///< a distance that doesn't count
-    double float_step_ = 0;  ///< the same for floats
-    SeparatingMove best_;
-    double best_distance_ = unlimited_move;
+    double step_ = 0;  ///< a distance that doesn't count
     TriedDirections tried_;
     int max_meets_ = 512;  ///< how many meets of planes are tried
 };
