@@ -25,13 +25,7 @@ BoundingBall<D> ball_around(const Aabb<D>& box) {
 /// Centred on the middle of the bounding box; right to rounding. There is at least one point.
 template <int D>
 BoundingBall<D> ball_around(std::span<const Vec<D>> points) {
-    DVec<D> low(points[0]), high = low;
-    for (const Vec<D>& point : points)
-        for (int i = 0; i < D; ++i) {
-            low[i] = std::min(low[i], static_cast<double>(point[i]));
-            high[i] = std::max(high[i], static_cast<double>(point[i]));
-        }
-    BoundingBall<D> result{(low + high) * 0.5, 0};
+    BoundingBall<D> result{(min_corner<D>(points) + max_corner<D>(points)) * 0.5, 0};
     for (const Vec<D>& point : points) result.radius = std::max(result.radius, length(DVec<D>(point) - result.center));
     return result;
 }

@@ -2,6 +2,7 @@
 
 #include <abut/convex/features.hpp>
 #include <abut/convex/hull/hull.hpp>
+#include <abut/convex/hull/hull_input.hpp>
 #include <abut/math/simd/library_entry.hpp>
 
 #include <limits>
@@ -100,13 +101,7 @@ public:
         const DVec<3>&u = relative.column[0], &v = relative.column[1], &w = relative.column[2];
         const double along_u = length(u), along_v = length(v), along_w = length(w);
         min_normal_ = flattened * std::max({along_u * along_v, along_v * along_w, along_w * along_u});
-        Vec3 low = points[0], high = low;
-        for (const Vec3& point : points)
-            for (int i = 0; i < 3; ++i) {
-                low[i] = std::min(low[i], point[i]);
-                high[i] = std::max(high[i], point[i]);
-            }
-        tolerance_ = face_tolerance * largest(DVec<3>(high) - DVec<3>(low)) * std::max({along_u, along_v, along_w});
+        tolerance_ = face_tolerance * extent<3>(points) * std::max({along_u, along_v, along_w});
     }
 
     std::uint32_t face_count() const { return static_cast<std::uint32_t>(facets_.normals.size()); }

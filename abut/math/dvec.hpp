@@ -78,6 +78,22 @@ glm::vec<D, double> unit(const glm::vec<D, double>& v) {
     return square == 0 ? axis<D>(0) : v * (1 / std::sqrt(square));
 }
 
+/// The least and the greatest coordinate on every axis, of a range of vectors.
+template <int D, class Points>
+DVec<D> min_corner(const Points& points) {
+    DVec<D> result(points[0]);
+    for (const auto& point : points)
+        for (int i = 0; i < D; ++i) result[i] = std::min(result[i], static_cast<double>(point[i]));
+    return result;
+}
+template <int D, class Points>
+DVec<D> max_corner(const Points& points) {
+    DVec<D> result(points[0]);
+    for (const auto& point : points)
+        for (int i = 0; i < D; ++i) result[i] = std::max(result[i], static_cast<double>(point[i]));
+    return result;
+}
+
 /// A unit vector perpendicular to v.
 inline DVec<2> perpendicular(const DVec<2>& v) {
     return normalized<2>(DVec<2>{-v.y, v.x});
@@ -91,12 +107,6 @@ inline DVec<3> perpendicular(const DVec<3>& v) {
 template <int D>
 Vec<D> to_float(const glm::vec<D, double>& v) {
     return Vec<D>(v);
-}
-
-/// A float vector in double.
-template <int D>
-DVec<D> to_double(const glm::vec<D, float>& v) {
-    return DVec<D>(v);
 }
 
 }  // namespace abut::detail

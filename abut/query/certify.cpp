@@ -1,4 +1,5 @@
 #include <abut/convex/gjk/gjk.hpp>
+#include <abut/math/detail/round_outwards.hpp>
 #include <abut/query/certify.hpp>
 #include <abut/query/detail/part_pairs.hpp>
 #include <abut/query/detail/sdf/function_pairs.hpp>
@@ -71,11 +72,6 @@ double reach(const Convex<D>& part, const DVec<D>& origin) {
     return farthest;
 }
 
-double unit_in_the_last_place(double x) {
-    const float f = static_cast<float>(std::abs(x));
-    return static_cast<double>(std::nextafter(f, std::numeric_limits<float>::infinity())) - static_cast<double>(f);
-}
-
 /// The tolerance of a pair without a distance function.
 template <int D>
 double tolerance_of(const Part<D>& a, const Part<D>& b) {
@@ -84,36 +80,41 @@ double tolerance_of(const Part<D>& a, const Part<D>& b) {
     if (b.is_half_space()) {
         const HalfSpaceView<D>& half_space = b.half_space();
         const double beyond = std::abs(extent(set, -half_space.normal, DVec<D>(0.0)) + half_space.offset);
-        return 1e-5 * size(set) + 16 * unit_in_the_last_place(std::max(2 * size(set), beyond));
+        return 1e-5 * size(set) + 16 * float_spacing(std::max(2 * size(set), beyond));
     }
     const DVec<D> origin = reference_point(set);
     return 1e-5 * std::min(size(set), size(b.convex())) +
-           16 * unit_in_the_last_place(std::max(reach(set, origin), reach(b.convex(), origin)));
+           16 * float_spacing(std::max(reach(set, origin), reach(b.convex(), origin)));
 }
 
 /// The most by which rounding the coordinates to floats moves a point.
 template <int D>
 double rounding_of(const Vec<D>& point) {
     double result = 0;
-    for (int i = 0; i < D; ++i) result += 0.5 * unit_in_the_last_place(static_cast<double>(point[i]));
+    for (int i = 0; i < D; ++i) result += 0.5 * float_spacing(static_cast<double>(point[i]));
     return result;
 }
 
-/// Sets the remaining errors, about a common point if the parts overlap, and whether all are small enough.
+/// Sets how far the two points are off the normal, and whether all errors are small enough.
+template <int D>
+void judge(const Closest<D>& answer, Certificate<D>& result) {
+    const DVec<D> on_a(answer.on_a), on_b(answer.on_b), normal(answer.normal);
+    result.across = length(on_b - on_a - normalized(normal) * static_cast<double>(answer.distance));
+    const double rounding = rounding_of(answer.on_a) + rounding_of(answer.on_b) + rounding_of(result.common);
+    const double worst = std::max({result.plane, result.off_a, result.off_b, result.across, result.off_common});
+    result.holds = std::abs(length(normal) - 1) <= 1e-6 && worst <= result.margin + 2 * rounding;
+}
+
+/// Sets the remaining errors, about a common point if the parts overlap.
 template <int D>
 void finish(const Part<D>& a, const Part<D>& b, const Closest<D>& answer, const DVec<D>& common,
             Certificate<D>& result) {
-    const DVec<D> on_a(answer.on_a), on_b(answer.on_b);
-    const double distance = static_cast<double>(answer.distance);
-    result.across = length(on_b - on_a - normalized(DVec<D>(answer.normal)) * distance);
-    if (distance <= 0) {
+    if (answer.distance <= 0) {
         result.common = to_float(common);
         const DVec<D> rounded_common(result.common);
         result.off_common = std::max(outside(a, rounded_common), outside(b, rounded_common));
     }
-    const double rounding = rounding_of(answer.on_a) + rounding_of(answer.on_b) + rounding_of(result.common);
-    const double worst = std::max({result.plane, result.off_a, result.off_b, result.across, result.off_common});
-    result.holds = std::abs(length(DVec<D>(answer.normal)) - 1) <= 1e-6 && worst <= result.margin + 2 * rounding;
+    judge(answer, result);
 }
 
 /// By the planes across the normal, for two parts that are no distance functions.
@@ -227,14 +228,10 @@ Certificate<3> certificate_of_overlap(const View<3>& a, const View<3>& b, const 
     if (distance < -result.margin && !(closest(a, b).distance < 0)) result.plane = -distance;
     result.off_a = off_shape(a, answer.on_a, true);
     result.off_b = off_shape(b, answer.on_b, true);
-    const DVec<3> on_a(answer.on_a), on_b(answer.on_b);
-    result.across = length(on_b - on_a - normalized(DVec<3>(answer.normal)) * distance);
     const std::optional<DVec<3>> common = common_point_of_solids(a, b);
-    result.common = to_float(common.value_or(on_a));
+    result.common = to_float(common.value_or(DVec<3>(answer.on_a)));
     result.off_common = std::max(off_shape(a, result.common, false), off_shape(b, result.common, false));
-    const double rounding = rounding_of(answer.on_a) + rounding_of(answer.on_b) + rounding_of(result.common);
-    const double worst = std::max({result.plane, result.off_a, result.off_b, result.across, result.off_common});
-    result.holds = std::abs(length(DVec<3>(answer.normal)) - 1) <= 1e-6 && worst <= result.margin + 2 * rounding;
+    judge(answer, result);
     return result;
 }
 

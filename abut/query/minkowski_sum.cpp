@@ -22,17 +22,6 @@ struct PlacedPoints {
     DVec<D> origin{0.0};
 };
 
-template <int D>
-DVec<D> middle(std::span<const DVec<D>> points) {
-    DVec<D> low = points[0], high = points[0];
-    for (const DVec<D>& point : points)
-        for (int i = 0; i < D; ++i) {
-            low[i] = std::min(low[i], point[i]);
-            high[i] = std::max(high[i], point[i]);
-        }
-    return 0.5 * (low + high);
-}
-
 /// The placed corners of a convex set: exact if they are floats after rotation and scale, else rounded relative to
 /// their centre, where floats are finest.
 template <int D>
@@ -43,7 +32,7 @@ PlacedPoints<D> placed_points(const Convex<D>& convex) {
         const DVec<D>& point = exact.emplace_back(convex.place.vector(DVec<D>(corner)));
         floats = floats && DVec<D>(to_float(point)) == point;
     }
-    const DVec<D> center = floats ? DVec<D>(0.0) : middle<D>(exact);
+    const DVec<D> center = floats ? DVec<D>(0.0) : 0.5 * (min_corner<D>(exact) + max_corner<D>(exact));
     PlacedPoints<D> result;
     for (const DVec<D>& point : exact) result.points.push_back(to_float(point - center));
     result.origin = convex.place.offset + center;

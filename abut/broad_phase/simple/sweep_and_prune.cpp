@@ -33,12 +33,6 @@ constexpr std::size_t whole_blocks(std::size_t count) {
     return (count + fan - 1) / fan;
 }
 
-/// An integer of the same order as the float.
-std::uint32_t key_of(float x) {
-    const auto bits = std::bit_cast<std::uint32_t>(x);
-    return bits ^ (static_cast<std::uint32_t>(static_cast<std::int32_t>(bits) >> 31) | 1u << 31);
-}
-
 /// An estimate of the time a box takes, in nanoseconds, for its copies in columns and its comparisons. Fitted to
 /// measurements of moving boxes.
 double sweep_cost(double copies, double comparisons) {

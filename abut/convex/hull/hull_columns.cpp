@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -101,12 +100,6 @@ struct KeyedPoint {
     std::uint32_t key;  ///< in the order of x
     NumberedPoint point;
 };
-
-/// Integers in the order of floats; 0 and -0 are equal.
-std::uint32_t key_of(float value) {
-    const auto bits = std::bit_cast<std::uint32_t>(value + 0.0f);
-    return (bits & 0x80000000u) != 0 ? ~bits : bits | 0x80000000u;
-}
 
 /// A stable sort by key.
 void sort(std::vector<KeyedPoint>& candidates) {

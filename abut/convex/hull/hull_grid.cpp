@@ -12,12 +12,8 @@ namespace {
 template <class Point>
 HullGrid grid_of(std::span<const Point> points) {
     HullGrid result;
-    result.least = result.greatest = DVec<3>(points[0]);
-    for (const Point& point : points)
-        for (int i = 0; i < 3; ++i) {
-            result.least[i] = std::min(result.least[i], static_cast<double>(point[i]));
-            result.greatest[i] = std::max(result.greatest[i], static_cast<double>(point[i]));
-        }
+    result.least = min_corner<3>(points);
+    result.greatest = max_corner<3>(points);
     const double side = largest(result.greatest - result.least);
     int exponent = 0;
     std::frexp(side, &exponent);  // side < 2^exponent

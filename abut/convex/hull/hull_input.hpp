@@ -47,22 +47,6 @@ inline std::vector<Vec3> sorted_without_copies(std::vector<Vec3> points) {
     return points;
 }
 
-/// The least and the greatest coordinate on every axis.
-template <int D>
-DVec<D> min_corner(std::span<const glm::vec<D, float>> points) {
-    DVec<D> result(points[0]);
-    for (const Vec<D>& point : points)
-        for (int i = 0; i < D; ++i) result[i] = std::min(result[i], static_cast<double>(point[i]));
-    return result;
-}
-template <int D>
-DVec<D> max_corner(std::span<const glm::vec<D, float>> points) {
-    DVec<D> result(points[0]);
-    for (const Vec<D>& point : points)
-        for (int i = 0; i < D; ++i) result[i] = std::max(result[i], static_cast<double>(point[i]));
-    return result;
-}
-
 /// The longest side of the bounding box.
 template <int D>
 double extent(std::span<const Vec<D>> points) {

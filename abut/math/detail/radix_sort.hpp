@@ -1,14 +1,21 @@
 #pragma once
 
-// Radix sort by integer keys. For .cpp files.
+// Radix sort by integer keys, and keys of floats. For .cpp files.
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
 
 namespace abut::detail {
+
+/// An integer in the order of the floats; 0 and -0 are equal.
+inline std::uint32_t key_of(float x) {
+    const auto bits = std::bit_cast<std::uint32_t>(x + 0.0f);
+    return bits ^ ((0 - (bits >> 31)) | 1u << 31);
+}
 
 /// Sorts by the lowest `bits` bits of key(item), an unsigned number. The sort is stable (least significant digit
 /// first, at most 11 bits a pass). `scratch` has capacity for `count` items. The result points to the sorted items: it

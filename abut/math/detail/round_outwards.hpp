@@ -1,6 +1,6 @@
 #pragma once
 
-// Doubles to floats, rounded down or up. For .cpp files.
+// Doubles to floats, rounded down or up, and the spacing of floats. For .cpp files.
 
 #include <abut/math/detail/next_float.hpp>
 
@@ -21,6 +21,12 @@ inline float float_at_most(double x) {
 /// The smallest float that is not below x; NaN for NaN.
 inline float float_at_least(double x) {
     return -float_at_most(-x);
+}
+
+/// The distance from the float nearest to x to the next one away from 0: a unit in the last place.
+inline double float_spacing(double x) {
+    const auto nearest = static_cast<float>(x < 0 ? -x : x);
+    return static_cast<double>(next_up(nearest)) - static_cast<double>(nearest);
 }
 
 }  // namespace abut::detail

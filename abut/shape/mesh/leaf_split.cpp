@@ -1,3 +1,4 @@
+#include <abut/math/detail/radix_sort.hpp>
 #include <abut/math/simd/float4-inl.h>
 #include <abut/shape/mesh/build.hpp>
 #include <abut/shape/mesh/leaf_split.hpp>
@@ -49,9 +50,7 @@ constexpr std::uint8_t no_vertex = 255;
 
 /// A sort key: orders by the float, then by the index.
 std::uint64_t key(float place, std::uint32_t index) {
-    const auto bits = std::bit_cast<std::uint32_t>(place + 0.0f);  // turns -0 into 0
-    const std::uint32_t sign = bits >> 31;
-    return static_cast<std::uint64_t>(bits ^ ((0 - sign) | 0x80000000)) << 32 | index;
+    return std::uint64_t{key_of(place)} << 32 | index;
 }
 
 /// Sorts by counting ranks in O(n^2), without branches; fast for few keys. No two keys are equal.

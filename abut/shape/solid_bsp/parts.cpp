@@ -12,12 +12,7 @@ namespace {
 /// corners keep all their bits, and other corners keep more bits than a float at that distance.
 template <int D>
 DVec<D> origin_of(std::span<const DVec<D>> corners) {
-    DVec<D> low = corners[0], high = corners[0];
-    for (const DVec<D>& corner : corners)
-        for (int i = 0; i < D; ++i) {
-            low[i] = std::min(low[i], corner[i]);
-            high[i] = std::max(high[i], corner[i]);
-        }
+    const DVec<D> low = min_corner<D>(corners), high = max_corner<D>(corners);
     DVec<D> result(0.0);
     const double extent = largest(high - low);
     if (extent == 0) return result;

@@ -5,7 +5,17 @@
 #include <abut/math/aabb.hpp>
 #include <abut/math/affine.hpp>
 
+#include <algorithm>
+#include <limits>
+
 namespace abut::detail {
+
+/// The box that contains everything.
+template <int D>
+Aabb<D> everywhere() {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    return {Vec<D>(-infinity), Vec<D>(infinity)};
+}
 
 /// The box of a box under an affine map, rounded outwards.
 template <int D>

@@ -5,12 +5,6 @@ namespace abut::detail {
 namespace {
 
 template <int D>
-Aabb<D> everywhere() {
-    constexpr float infinity = std::numeric_limits<float>::infinity();
-    return {Vec<D>(-infinity), Vec<D>(infinity)};
-}
-
-template <int D>
 bool bounded(const Aabb<D>& box) {
     constexpr float largest_float = std::numeric_limits<float>::max();
     bool result = true;

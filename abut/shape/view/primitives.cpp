@@ -39,15 +39,6 @@ Convex<D> box_at(const Pose<D>& pose, const Vec<D>& half) {
     return result;
 }
 
-template <int D>
-Convex<D> box_about(const Affine<D>& place, const Vec<D>& half) {
-    Convex<D> result;
-    result.core = Core::box;
-    result.own[0] = half;
-    result.place = place;
-    return result;
-}
-
 Convex<3> discs(const Vec3& a, const Vec3& b, float radius_a, float radius_b) {
     Convex<3> result;
     result.core = Core::discs;
@@ -110,14 +101,14 @@ Convex<D> convex(const Box<D>& box, const Pose<D>& pose) {
 
 template <int D>
 Convex<D> convex(const Aabb<D>& box) {
-    Affine<D> place;
-    Vec<D> half;
+    Convex<D> result;
+    result.core = Core::box;
     for (int i = 0; i < D; ++i) {
         const double low = static_cast<double>(box.min[i]), high = static_cast<double>(box.max[i]);
-        place.offset[i] = 0.5 * (low + high);
-        half[i] = static_cast<float>(0.5 * (high - low));
+        result.place.offset[i] = 0.5 * (low + high);
+        result.own[0][i] = static_cast<float>(0.5 * (high - low));
     }
-    return box_about(place, half);
+    return result;
 }
 
 Convex<3> convex(const Cylinder& cylinder) {

@@ -76,12 +76,6 @@ DVec<3> raised(const DVec<3>& corner, std::span<const Plane<3>> planes, std::spa
     return corner + (lowest && length(*lowest) <= 2 * along ? *lowest : direction * along);
 }
 
-/// The distance to the next float.
-double spacing(double value) {
-    const auto near = static_cast<float>(std::abs(value));
-    return static_cast<double>(next_up(near)) - static_cast<double>(near);
-}
-
 /// A float point near `corner` that is above, or on, all planes of the corner. Then it contains all that the planes and
 /// the corner contain. Corner and planes are in the frame, the point is in the world; -0 becomes 0. Nothing if there is
 /// none in the range of floats. Above is meant to the rounding of doubles.
@@ -95,7 +89,7 @@ std::optional<Vec<D>> rounded_corner(const DVec<D>& corner, std::span<const Plan
     for (std::size_t i = 0; i < planes.size(); ++i) {
         const DVec<D> normal = frame.into.transposed(planes[i].normal);
         rise[i] = min_rise;
-        for (int axis = 0; axis < D; ++axis) rise[i] += std::abs(normal[axis]) * spacing(place[axis]);
+        for (int axis = 0; axis < D; ++axis) rise[i] += std::abs(normal[axis]) * float_spacing(place[axis]);
         if (!std::isfinite(rise[i])) return std::nullopt;
     }
     const DVec<D> step = raised(corner, planes, rise) - low;

@@ -2,6 +2,7 @@
 #include <abut/math/assert.hpp>
 #include <abut/query/detail/sdf/function_motion.hpp>
 #include <abut/query/detail/sweep/rotating.hpp>
+#include <abut/shape/view/mapped_box.hpp>
 
 #include <optional>
 #include <tuple>
@@ -53,12 +54,6 @@ private:
     RigidPath<D> path_, frame_;
     double acceleration_;
 };
-
-template <int D>
-Aabb<D> everywhere() {
-    constexpr float infinity = std::numeric_limits<float>::infinity();
-    return {Vec<D>(-infinity), Vec<D>(infinity)};
-}
 
 /// The parts of a composite shape near another moving shape, by its local box.
 template <int D>
