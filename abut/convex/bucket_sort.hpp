@@ -19,8 +19,7 @@ struct Buckets {
     }
 };
 
-/// `each` calls its argument with the bucket and the key of every item, of fewer than 2^32. It is called twice. The
-/// keys of a bucket are distinct.
+/// `each` calls its argument with the bucket and the key of every item, of fewer than 2^32. It is called twice.
 template <class Each>
 Buckets in_buckets(std::size_t count, Each each) {
     // Counts are stored one bucket later, so that filling moves each start to its end.

@@ -1,3 +1,4 @@
+#include <abut/convex/bucket_sort.hpp>
 #include <abut/math/assert.hpp>
 #include <abut/math/simd/library_entry.hpp>
 #include <abut/motion/order/precedence.hpp>
@@ -14,29 +15,16 @@ using namespace detail;
 
 namespace {
 
-/// An adjacency list for each shape, in one array.
-class AdjacencyLists {
-public:
-    template <class Key, class Value>
-    AdjacencyLists(std::size_t count, const std::vector<Precedence>& edges, Key key, Value value)
-        : begin_(count + 1, 0) {
-        for (const Precedence& edge : edges) ++begin_[key(edge) + 1];
-        for (std::size_t i = 0; i < count; ++i) begin_[i + 1] += begin_[i];
-        std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
-        items_.resize(edges.size());
-        for (const Precedence& edge : edges) items_[next[key(edge)]++] = value(edge);
-    }
-    std::span<const std::uint32_t> operator[](std::uint32_t i) const {
-        return std::span(items_).subspan(begin_[i], begin_[i + 1] - begin_[i]);
-    }
-
-private:
-    std::vector<std::size_t> begin_;
-    std::vector<std::uint32_t> items_;
-};
+/// For each shape, the end `to` of every edge that has it as its end `from`.
+Buckets adjacency_lists(std::size_t count, const std::vector<Precedence>& edges, std::uint32_t Precedence::*from,
+                        std::uint32_t Precedence::*to) {
+    return in_buckets(count, [&](auto add) {
+        for (const Precedence& edge : edges) add(edge.*from, edge.*to);
+    });
+}
 
 /// Follows the lowest blocker from shape to shape until one repeats.
-std::vector<std::uint32_t> find_cycle(const AdjacencyLists& uppers, const std::vector<bool>& removed) {
+std::vector<std::uint32_t> find_cycle(const Buckets& uppers, const std::vector<bool>& removed) {
     std::uint32_t at = 0;
     while (removed[at]) ++at;
     std::vector<std::uint32_t> path;
@@ -48,8 +36,8 @@ std::vector<std::uint32_t> find_cycle(const AdjacencyLists& uppers, const std::v
         }
         path.push_back(at);
         std::uint32_t next = static_cast<std::uint32_t>(removed.size());
-        for (const std::uint32_t upper : uppers[at])
-            if (!removed[upper]) next = std::min(next, upper);
+        for (const std::uint64_t upper : uppers.bucket(at))
+            if (!removed[upper]) next = std::min(next, static_cast<std::uint32_t>(upper));
         at = next;
     }
     std::rotate(path.begin(), std::min_element(path.begin(), path.end()), path.end());
@@ -59,9 +47,7 @@ std::vector<std::uint32_t> find_cycle(const AdjacencyLists& uppers, const std::v
 /// Topological sort, lowest index first: Kahn, "Topological sorting of large networks" (1962). The result depends only
 /// on the precedence relation, and not on which of its edges are listed.
 RemovalOrder topological_order(std::size_t count, const std::vector<Precedence>& edges) {
-    const auto lower = [](const Precedence& edge) { return edge.lower; };
-    const auto upper = [](const Precedence& edge) { return edge.upper; };
-    const AdjacencyLists lowers(count, edges, upper, lower);
+    const Buckets lowers = adjacency_lists(count, edges, &Precedence::upper, &Precedence::lower);
     std::vector<std::size_t> blocker_count(count, 0);
     for (const Precedence& edge : edges) ++blocker_count[edge.lower];
 
@@ -76,10 +62,13 @@ RemovalOrder topological_order(std::size_t count, const std::vector<Precedence>&
         free.pop();
         result.order.push_back(next);
         removed[next] = true;
-        for (const std::uint32_t below : lowers[next])
-            if (--blocker_count[below] == 0) free.push(below);
+        for (const std::uint64_t below : lowers.bucket(next))
+            if (--blocker_count[below] == 0) free.push(static_cast<std::uint32_t>(below));
     }
-    if (result.order.size() < count) result.cycle = find_cycle(AdjacencyLists(count, edges, lower, upper), removed);
+    if (result.order.size() < count) {
+        const Buckets uppers = adjacency_lists(count, edges, &Precedence::lower, &Precedence::upper);
+        result.cycle = find_cycle(uppers, removed);
+    }
     return result;
 }
 
