@@ -94,6 +94,10 @@ public:
     }
 
 private:
+    /// Whether the distance of most parts takes no longer than the cheap test: from balls and capsules.
+    static bool has_fast_distance(const Convex<D>& set) {
+        return set.core == Core::points && set.count <= 2 && set.inner_radius == 0;
+    }
     /// Farther parts can't be nearer. All overlapping parts must be tested, as the deepest may come last.
     float reach() const {
         return any_ ? static_cast<float>(std::max(nearest_.distance, 0.0)) : std::numeric_limits<float>::infinity();
@@ -102,7 +106,8 @@ private:
     /// Tests all parts of a shape near one part of the other shape, which is A or B.
     void search_around(const View<D>& shape, const Part<D>& part, std::uint32_t index, bool part_is_of_a) {
         std::optional<PartCuller<D>> culler;
-        if (part.is_convex() && std::holds_alternative<Composite<D>>(shape)) culler.emplace(part.convex());
+        if (part.is_convex() && std::holds_alternative<Composite<D>>(shape) && !has_fast_distance(part.convex()))
+            culler.emplace(part.convex());
         each_part_within_reach(shape, part, [&](const Part<D>& other, std::uint32_t other_index) {
             if (any_ && culler && nearest_.distance > 0 && culler->is_beyond(other.convex(), nearest_.distance))
                 return reach();
