@@ -24,21 +24,26 @@ inline bool surely_misses_plane(double height, double scale) {
     return height > 4 * (ray_tolerance + ray_grazing_slope) * scale;
 }
 
+/// The largest absolute coordinate.
+[[gnu::always_inline]] inline double largest_of_three(const DVec<3>& v) {
+    return std::max(std::max(std::abs(v.x), std::abs(v.y)), std::abs(v.z));
+}
+
 /// The corners are relative to the ray's origin. Sets `entry` if the ray enters.
 [[gnu::always_inline]] inline RayAnswer decide_triangle(const DVec<3>& direction, double max_length, const DVec<3>& a,
                                                         const DVec<3>& b, const DVec<3>& c, RayEntry<3>& entry) {
     const DVec<3> ab = b - a, ac = c - a, normal = cross(ab, ac);
-    const double size = largest(ab) + largest(ac), scale = largest(a) + size;
-    const double area = length(normal);
-    if (!(area > 1e-6 * size * size)) return RayAnswer::undecided;
     const double height = -dot(a, normal), descent = -dot(direction, normal);
-    if (std::abs(descent) <= ray_grazing_slope * area)
-        return surely_misses_plane(std::abs(height) / area, scale) ? RayAnswer::misses : RayAnswer::undecided;
     // How far the line passes outside of the edges through `a`, and of the third, in areas.
     const DVec<3> rotated = cross(direction, a);
-    const double side = descent > 0 ? 1 : -1;
-    const double to_ac = side * dot(ac, rotated), to_ab = -side * dot(ab, rotated), whole = side * descent;
-    const double beyond = std::max({-to_ac, -to_ab, to_ac + to_ab - whole});
+    const double side = std::copysign(1.0, descent), whole = std::abs(descent);
+    const double to_ac = side * dot(ac, rotated), to_ab = -side * dot(ab, rotated);
+    const double beyond = std::max(std::max(-to_ac, -to_ab), to_ac + to_ab - whole);
+    const double size = largest_of_three(ab) + largest_of_three(ac), scale = largest_of_three(a) + size;
+    const double area = std::sqrt(dot(normal, normal));
+    if (!(area > 1e-6 * size * size)) return RayAnswer::undecided;
+    if (whole <= ray_grazing_slope * area)
+        return surely_misses_plane(std::abs(height) / area, scale) ? RayAnswer::misses : RayAnswer::undecided;
     if (beyond > ray_edge_tolerance * scale * size) return RayAnswer::misses;
     if (std::abs(height) <= ray_start_tolerance * scale * area) return RayAnswer::undecided;
     const double along = height / descent;

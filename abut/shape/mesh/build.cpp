@@ -148,7 +148,7 @@ private:
             if (used)
                 rows.set(lane, nodes_[children.nodes[lane]].box);
             else
-                rows.clear(lane);
+                clear_box(rows, lane);
         }
         return result;
     }

@@ -7,6 +7,7 @@
 #include <abut/shape/mesh/tree.hpp>
 
 #include <cstdint>
+#include <limits>
 
 namespace abut::detail {
 
@@ -15,6 +16,14 @@ BvhItem item_of(const Triangle3& triangle, std::uint32_t index, Aabb3& all);
 
 /// The extent |x| + |y| + |z| of the box of a leaf's vertices, for error bounds.
 float extent_of(const MeshLeaf& leaf);
+
+/// Marks a box of a node as unused. The infinite bounds of the first axis put it out of the reach of every ray, however
+/// minima and maxima of NaN come out; comparisons with the NaN of the others exclude it for every box.
+inline void clear_box(MeshNode& node, std::uint32_t lane) {
+    node.clear(lane);
+    node.min[0][lane] = std::numeric_limits<float>::infinity();
+    node.max[0][lane] = -std::numeric_limits<float>::infinity();
+}
 
 /// Sets the root; `exact` is the box of all triangles without padding.
 void set_root(MeshTree& tree, std::uint32_t ref, const Aabb3& exact);

@@ -118,7 +118,7 @@ private:
             for (std::uint32_t lane = 0; lane < mesh_lanes; ++lane) {
                 const std::uint32_t ref = rows.child[lane];
                 if (ref == bvh_none) {
-                    rows.clear(lane);
+                    clear_box(rows, lane);
                     continue;
                 }
                 const Aabb3& box = is_leaf(ref) ? leaf_boxes_[ref & ~bvh_leaf_bit] : boxes[ref];

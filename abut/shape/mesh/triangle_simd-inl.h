@@ -36,6 +36,29 @@ struct V2 {
     V x, y;
 };
 
+/// Rows of numbers of a leaf's vertices: in registers where one holds a row, else in memory.
+template <int count>
+class LeafRows {
+public:
+    HWY_INLINE void set(int row, std::uint32_t lane, V numbers) {
+        if constexpr (bvh_step == mesh_lanes)
+            registers_[row] = numbers;
+        else
+            hn::Store(numbers, bvh_tag, memory_[row] + lane);
+    }
+    template <class Indices>
+    HWY_INLINE V lookup(int row, Indices indices) const {
+        if constexpr (bvh_step == mesh_lanes)
+            return hn::TableLookupLanes(registers_[row], hn::IndicesFromVec(bvh_tag, indices));
+        else
+            return hn::GatherIndex(bvh_tag, memory_[row], indices);
+    }
+
+private:
+    V registers_[bvh_step == mesh_lanes ? count : 1];
+    HWY_ALIGN float memory_[bvh_step == mesh_lanes ? 1 : count][mesh_lanes];
+};
+
 /// The vertex indices of consecutive triangles of a leaf, one triangle a lane.
 class LeafNumbers {
 public:
@@ -51,9 +74,9 @@ public:
         return {lookup(rows[0], indices), lookup(rows[1], indices), lookup(rows[2], indices)};
     }
     template <int which>
-    HWY_INLINE V2 pick(const float (&rows)[2][mesh_lanes]) const {
+    HWY_INLINE V2 pick(const LeafRows<2>& rows) const {
         const auto indices = numbers<which>();
-        return {lookup(rows[0], indices), lookup(rows[1], indices)};
+        return {rows.lookup(0, indices), rows.lookup(1, indices)};
     }
 
 private:

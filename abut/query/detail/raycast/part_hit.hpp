@@ -47,7 +47,7 @@ bool each_triangle_hit(const DRay<3>& beam, const Composite<3>& composite, const
 
 /// A ray without direction has length 0.
 template <int D>
-DRay<D> to_dray(const Ray<D>& ray) {
+[[gnu::always_inline]] inline DRay<D> to_dray(const Ray<D>& ray) {
     const DVec<D> direction(ray.direction);
     if (direction == DVec<D>(0.0)) return {DVec<D>(ray.origin), direction, 0};
     return {DVec<D>(ray.origin), unit(direction), static_cast<double>(ray.length)};

@@ -1,9 +1,4 @@
-#include <abut/convex/ray/triangle.hpp>
-#include <abut/math/simd/library_entry.hpp>
-#include <abut/query/detail/raycast/part_hit.hpp>
-#include <abut/query/detail/valid_query.hpp>
-#include <abut/query/raycast.hpp>
-#include <abut/shape/mesh.hpp>
+#include <abut/query/detail/raycast/by_advance.hpp>
 #include <abut/shape/mesh/rays.hpp>
 
 namespace abut::detail {
@@ -64,18 +59,6 @@ bool set_target(const Composite<3>& composite, const QueryOptions<3>& options, T
     return true;
 }
 
-/// Decides the cases that the closed form leaves open; `part_of` places a triangle in the world.
-template <class PartOf>
-auto by_advance(const DRay<3>& beam, const PartOf& part_of, Trace<3>* trace) {
-    return [&beam, part_of, trace](const Triangle3& triangle, double max_length, RayEntry<3>& entry) {
-        PartHit<3> hit;
-        if (!part_hit_by_advance({beam.origin, beam.direction, max_length}, part_of(triangle), 0, trace, hit))
-            return false;
-        entry = {RayAnswer::enters, hit.along, hit.normal, hit.feature.kind, hit.feature.index};
-        return true;
-    };
-}
-
 /// The triangles of a composite.
 auto parts_of(const Composite<3>& composite) {
     return [&composite](const Triangle3& triangle) { return placed(convex(triangle), composite); };
@@ -115,29 +98,3 @@ bool each_triangle_hit(const DRay<3>& beam, const Composite<3>& composite, const
 }
 
 }  // namespace abut::detail
-
-namespace abut {
-
-using namespace detail;
-
-std::optional<Hit<3>> raycast(const Ray<3>& ray, const Mesh& mesh, const QueryOptions<3>& options) {
-    detail::enter_library();
-    std::optional<Hit<3>> result;
-    if (!detail::is_valid_query(ray)) return result;
-    const DRay<3> beam = to_dray(ray);
-    if (beam.rests()) return result;
-    const auto undecided = by_advance(
-        beam, [](const Triangle3& triangle) { return convex(triangle); }, options.trace);
-    const MeshRay mesh_ray{beam, beam, 1, 0, nullptr, options.back_faces ? 0.0 : 1.0};
-    MeshHit first;
-    if (!find_first_hit(triangle_tree(mesh), mesh_ray, RobustTriangleTest(undecided), first)) {
-        result = raycast(ray, view(mesh), options);
-    } else if (first.triangle != nullptr) {
-        Hit<3>& hit = result.emplace();
-        write_hit(beam, first.entry.along, first.entry.normal, hit);
-        hit.feature = {*first.triangle, first.entry.index, first.entry.kind};
-    }
-    return result;
-}
-
-}  // namespace abut
