@@ -1,4 +1,4 @@
-// Embree's triangles: rtcIntersect1.
+// Embree's triangles: rtcIntersect1 and rtcOccluded1.
 
 #include "embree_ray.hpp"
 #include "rays.hpp"
@@ -43,6 +43,14 @@ public:
         return hit.hit.geomID == RTC_INVALID_GEOMETRY_ID ? -1.0 : static_cast<double>(hit.ray.tfar);
     }
 
+    bool any_hit(const Ray3& ray) const {
+        RTCIntersectContext context;
+        rtcInitIntersectContext(&context);
+        RTCRay beam = to_embree(ray).ray;
+        rtcOccluded1(scene_, &context, &beam);
+        return beam.tfar < 0;
+    }
+
 private:
     SharedRayMesh mesh_;
     RTCDevice device_ = rtcNewDevice("threads=1,set_affinity=0");
@@ -62,6 +70,14 @@ Side embree_rays(const SharedRayMesh& scene, Quality quality, Edges edges) {
     return {name(quality, edges),
             [scene, triangles = std::make_shared<const Triangles>(scene, quality, edges)](std::span<double> values) {
                 for (std::size_t i = 0; i < values.size(); ++i) values[i] = triangles->distance(scene->rays[i]);
+            }};
+}
+
+Side embree_any_hits(const SharedRayMesh& scene, Edges edges) {
+    return {name(Quality::usual, edges), [scene, triangles = std::make_shared<const Triangles>(
+                                                     scene, Quality::usual, edges)](std::span<double> values) {
+                for (std::size_t i = 0; i < values.size(); ++i)
+                    values[i] = triangles->any_hit(scene->rays[i]) ? 1.0 : 0.0;
             }};
 }
 

@@ -1,5 +1,5 @@
-// First hits of incoherent rays on meshes of different kinds: a scan, closed and finely rough; a terrain; and a large
-// mesh. Also tree builds.
+// First hits, and any hits, of incoherent rays on meshes of different kinds: a scan, closed and finely rough; a
+// terrain; and a large mesh. Also tree builds.
 
 #include "rays.hpp"
 
@@ -60,6 +60,23 @@ Job rays(const SharedRayMesh& scene) {
                       straying(embree_rays(scene, Quality::high, Edges::robust)), straying(bullet_rays(scene))}};
 }
 
+Job any_hits(const SharedRayMesh& scene) {
+    const Side ours{"abut", [scene, mesh = *Mesh::build(scene->points, scene->triangles)](std::span<double> values) {
+                        for (std::size_t i = 0; i < values.size(); ++i) {
+                            values[i] = 0;
+                            each_hit(scene->rays[i], mesh, [&](const Hit<3>&) {
+                                values[i] = 1;
+                                return false;
+                            });
+                        }
+                    }};
+    return {.items = ray_count,
+            .values = ray_count,
+            .tolerance = tolerance,
+            .sides = {ours, straying(embree_any_hits(scene, Edges::fast)),
+                      straying(embree_any_hits(scene, Edges::robust))}};
+}
+
 Job build(const SharedRayMesh& scene) {
     const Side ours{"abut", [scene](std::span<double> values) {
                         const Mesh mesh = *Mesh::build(scene->points, scene->triangles);
@@ -99,6 +116,9 @@ std::vector<Bench> ray_benches() {
         {"motion/rays/scan/86k", [] { return rays(scan()); }},
         {"motion/rays/terrain/100k", [] { return rays(terrain_rays(224)); }},
         {"motion/rays/terrain/1M", [] { return rays(terrain_rays(707)); }},
+        {"motion/rays/any/scan/86k", [] { return any_hits(scan()); }},
+        {"motion/rays/any/terrain/100k", [] { return any_hits(terrain_rays(224)); }},
+        {"motion/rays/any/terrain/1M", [] { return any_hits(terrain_rays(707)); }},
         {"motion/rays/build/scan/86k", [] { return build(scan()); }},
         {"motion/rays/build/terrain/100k", [] { return build(terrain_rays(224)); }},
         {"motion/rays/build/terrain/1M", [] { return build(terrain_rays(707)); }},

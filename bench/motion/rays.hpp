@@ -1,7 +1,7 @@
 #pragma once
 
 // Ray casts against one mesh, and the peers' answers: one file per peer. One value per ray: the distance, or -1 for a
-// miss. A build job reports the distance of a ray afterwards.
+// miss; for any hit 1 or 0. A build job reports the distance of a ray afterwards.
 
 #include "../bench.hpp"
 #include <abut/math/ray.hpp>
@@ -28,6 +28,8 @@ enum class Quality { usual, high };
 enum class Edges { fast, robust };
 
 Side embree_rays(const SharedRayMesh& scene, Quality quality, Edges edges);
+/// Whether a ray hits anything.
+Side embree_any_hits(const SharedRayMesh& scene, Edges edges);
 Side embree_mesh_build(const SharedRayMesh& scene, Quality quality);
 /// btBvhTriangleMeshShape with a quantised tree.
 Side bullet_rays(const SharedRayMesh& scene);
