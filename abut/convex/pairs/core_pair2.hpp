@@ -148,7 +148,9 @@ private:
     bool set_corners(std::uint32_t corner_a, std::uint32_t corner_b, bool known, ClosestFeatures2& closest) const {
         const Double2 offset_a = from_position(shapes_[0], corner_a), offset_b = from_position(shapes_[1], corner_b);
         const Double2 between = between_ + (offset_b - offset_a), square = lanes::dot(between, between);
-        const double apart = touching();
+        // Only of the numbers in the sum: the sizes of the cores lie on other cache lines.
+        const Double2 sizes = lanes::magnitude(between_) + lanes::magnitude(offset_a) + lanes::magnitude(offset_b);
+        const double apart = on_corner * (sizes[0] + sizes[1]);
         if (!(square[0] > apart * apart)) return false;
         if (!known && !(shapes_[0].is_farthest(corner_a, shapes_[0].place().back(between)) &&
                         shapes_[1].is_farthest(corner_b, -shapes_[1].place().back(between))))

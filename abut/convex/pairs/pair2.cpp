@@ -10,8 +10,8 @@ template <class Query>
 [[gnu::always_inline]] inline PairAnswer with_cores(PlacedPolygon& a, PlacedPolygon& b, const Query& query) {
     if (a.core != PlacedPolygon::Core::polygon && b.core != PlacedPolygon::Core::polygon)
         return query(CorePair<BoxCore>(a, b));
-    a.make_rows();
-    b.make_rows();
+    if (a.core != PlacedPolygon::Core::polygon) a.make_rows();
+    if (b.core != PlacedPolygon::Core::polygon) b.make_rows();
     return query(CorePair<PolygonCore>(a, b));
 }
 

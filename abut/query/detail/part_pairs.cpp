@@ -100,7 +100,7 @@ void name_feature(const Convex<D>& part, const CornerIndices<D>& corners, std::s
     feature.index = 0;
     feature.kind = FeatureKind::none;
     if (!has_features(part)) return;
-    if (count == 2) return name_end_or_edge<D>(corners, number, feature);
+    if (count == 2) return name_end_or_edge(corners[0], corners[1], number, feature);
     if constexpr (D == 3)
         if (part.core == Core::box) return name_box_feature(corners, count, feature);
     // A corner may appear twice.

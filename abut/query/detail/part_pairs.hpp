@@ -79,14 +79,14 @@ void name_feature(const Convex<D>& part, const CornerIndices<D>& corners, std::s
 template <int D>
 void name_feature(const AnyPart<D>& part, const CornerIndices<D>& corners, std::size_t count, const DVec<D>& out,
                   std::uint32_t number, Feature& feature);
-/// Names the vertex (the same corner twice) or the edge of a part without faces.
-template <int D>
-void name_end_or_edge(const CornerIndices<D>& corners, std::uint32_t number, Feature& feature) {
+/// Names the vertex (the same corner twice) or the edge of a part without faces. The corners are numbers and not an
+/// array: loading two of them at once right after they were written one by one stalls.
+inline void name_end_or_edge(std::uint32_t first, std::uint32_t second, std::uint32_t number, Feature& feature) {
     // Branchless: which case holds is unpredictable, and compilers turn a conditional into a branch.
-    const std::uint32_t differ = corners[0] != corners[1] ? 1 : 0;
-    const std::uint32_t edge = edge_index(corners[0], corners[1]);
+    const std::uint32_t swap = (first ^ second) & (0u - (first > second ? 1u : 0u));
+    const std::uint32_t low = first ^ swap, high = second ^ swap, differ = low < high ? 1 : 0;
     feature.part = number;
-    feature.index = corners[0] ^ ((corners[0] ^ edge) & (0u - differ));
+    feature.index = low ^ ((low ^ ((low & 0xffffu) | high << 16)) & (0u - differ));
     feature.kind = static_cast<FeatureKind>(static_cast<std::uint32_t>(FeatureKind::vertex) + differ);
     static_assert(static_cast<int>(FeatureKind::edge) == static_cast<int>(FeatureKind::vertex) + 1);
 }

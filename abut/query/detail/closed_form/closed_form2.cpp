@@ -36,10 +36,8 @@ struct PairOrder {
     std::uint32_t contact_feature(std::uint32_t corner_name) const { return corner_name << 8 * (1 - of); }
     template <class Core, class Answer>
     void name_features(const Core& core, const PointFeatures2& found, Answer& answer) const {
-        // In order without a branch, which could not be predicted.
-        const std::uint32_t i = core.number(found.first), j = core.number(found.second);
-        const std::uint32_t swap = (i ^ j) & (0u - (i > j ? 1u : 0u));
-        name_end_or_edge<2>({i ^ swap, j ^ swap}, 0, of_shape(answer.feature_a, answer.feature_b));
+        name_end_or_edge(core.number(found.first), core.number(found.second), 0,
+                         of_shape(answer.feature_a, answer.feature_b));
         of_circle(answer.feature_a, answer.feature_b).kind = FeatureKind::vertex;
     }
 };
@@ -139,8 +137,8 @@ struct ContactWriter {
 
 template <class Answer>
 void name_features(const ClosestFeatures2& closest, Answer& answer) {
-    name_end_or_edge<2>({closest.corners[0][0], closest.corners[0][1]}, 0, answer.feature_a);
-    name_end_or_edge<2>({closest.corners[1][0], closest.corners[1][1]}, 0, answer.feature_b);
+    name_end_or_edge(closest.corners[0][0], closest.corners[0][1], 0, answer.feature_a);
+    name_end_or_edge(closest.corners[1][0], closest.corners[1][1], 0, answer.feature_b);
 }
 
 }  // namespace

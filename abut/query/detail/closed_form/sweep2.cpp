@@ -144,7 +144,7 @@ private:
     }
     /// Names the feature of B by its two vertices, or one vertex given twice.
     static void name(const Core& b, std::uint32_t i, std::uint32_t j, Hit<2>& hit) {
-        name_end_or_edge<2>({b.number(i), b.number(j)}, 0, hit.feature);
+        name_end_or_edge(b.number(i), b.number(j), 0, hit.feature);
     }
 
     void report_at_vertex(double time, Double2 offset, Double2 out, Hit<2>& hit) const {
