@@ -25,7 +25,7 @@ BoundingBall<D> ball_around(const Aabb<D>& box) {
 /// Centred on the middle of the bounding box; right to rounding. There is at least one point.
 template <int D>
 BoundingBall<D> ball_around(std::span<const Vec<D>> points) {
-    BoundingBall<D> result{(min_corner<D>(points) + max_corner<D>(points)) * 0.5, 0};
+    BoundingBall<D> result{min_max<D>(points).middle(), 0};
     for (const Vec<D>& point : points) result.radius = std::max(result.radius, length(DVec<D>(point) - result.center));
     return result;
 }

@@ -78,19 +78,23 @@ glm::vec<D, double> unit(const glm::vec<D, double>& v) {
     return square == 0 ? axis<D>(0) : v * (1 / std::sqrt(square));
 }
 
-/// The least and the greatest coordinate on every axis, of a range of vectors.
+/// The least and the greatest coordinate on every axis.
+template <int D>
+struct MinMax {
+    DVec<D> min, max;
+
+    DVec<D> middle() const { return 0.5 * (min + max); }
+    DVec<D> sides() const { return max - min; }
+};
+/// Of a range of at least one vector.
 template <int D, class Points>
-DVec<D> min_corner(const Points& points) {
-    DVec<D> result(points[0]);
+MinMax<D> min_max(const Points& points) {
+    MinMax<D> result{DVec<D>(points[0]), DVec<D>(points[0])};
     for (const auto& point : points)
-        for (int i = 0; i < D; ++i) result[i] = std::min(result[i], static_cast<double>(point[i]));
-    return result;
-}
-template <int D, class Points>
-DVec<D> max_corner(const Points& points) {
-    DVec<D> result(points[0]);
-    for (const auto& point : points)
-        for (int i = 0; i < D; ++i) result[i] = std::max(result[i], static_cast<double>(point[i]));
+        for (int i = 0; i < D; ++i) {
+            result.min[i] = std::min(result.min[i], static_cast<double>(point[i]));
+            result.max[i] = std::max(result.max[i], static_cast<double>(point[i]));
+        }
     return result;
 }
 

@@ -32,7 +32,7 @@ PlacedPoints<D> placed_points(const Convex<D>& convex) {
         const DVec<D>& point = exact.emplace_back(convex.place.vector(DVec<D>(corner)));
         floats = floats && DVec<D>(to_float(point)) == point;
     }
-    const DVec<D> center = floats ? DVec<D>(0.0) : 0.5 * (min_corner<D>(exact) + max_corner<D>(exact));
+    const DVec<D> center = floats ? DVec<D>(0.0) : min_max<D>(exact).middle();
     PlacedPoints<D> result;
     for (const DVec<D>& point : exact) result.points.push_back(to_float(point - center));
     result.origin = convex.place.offset + center;

@@ -95,9 +95,10 @@ void World<D>::repeat_last(const IdPair& pair) {
         return;
     }
     for (std::size_t i = first; i < end; ++i) {
-        const FoundState& last = last_found_.states[i];
+        const detail::FoundState& last = last_found_.states[i];
         found_.add(pair, last) = last_found_.contacts[i];
-        if (last.own_area != none) found_.set_own_area(found_.size() - 1, last_found_.own_areas[last.own_area]);
+        if (last.own_area != detail::FoundState::no_own_area)
+            found_.set_own_area(found_.size() - 1, last_found_.own_areas[last.own_area]);
     }
 }
 

@@ -6,20 +6,19 @@
 #include <abut/broad_phase/choose_broad_phase.hpp>
 #include <abut/math/motion.hpp>
 #include <abut/math/result.hpp>
-#include <abut/query/closest.hpp>
-#include <abut/query/contact.hpp>
-#include <abut/query/detail/surface/surface_normal_flags.hpp>
 #include <abut/query/raycast.hpp>
 #include <abut/shape/any_shape.hpp>
-#include <abut/world/ball_early_out.hpp>
 #include <abut/world/detail/bounding_ball.hpp>
+#include <abut/world/detail/found_contacts.hpp>
 #include <abut/world/detail/item_boxes.hpp>
 #include <abut/world/detail/pair_index.hpp>
 #include <abut/world/detail/placed_views.hpp>
 #include <abut/world/detail/query_count.hpp>
 #include <abut/world/detail/released_shapes.hpp>
 #include <abut/world/detail/swept_box.hpp>
-#include <abut/world/id.hpp>
+#include <abut/world/detail/why_no_sweep.hpp>
+#include <abut/world/options.hpp>
+#include <abut/world/results.hpp>
 
 #include <cstdint>
 #include <memory>
@@ -44,110 +43,6 @@ struct SurfaceContact;
 }  // namespace abut::detail
 
 namespace abut {
-
-/// The options of an item: a shape in a world.
-template <int D>
-struct ItemOptions {
-    Pose<D> pose{};                   ///< applied to the shape, which has a position of its own as well
-    std::uint64_t user = 0;           ///< free for the game's use, such as an index
-    std::uint32_t layers = 1;         ///< the layers the item is on, one bit each
-    std::uint32_t mask = 0xffffffff;  ///< the layers the item pairs with; both items must agree
-    bool fixed = false;               ///< seldom moves; two fixed items never pair
-    bool sensor = false;              ///< has events and no contacts; queries skip it by default
-    bool continuous = false;  ///< the events include all that it touches between two updates, at any speed: bullets
-};
-
-/// The first two are for tests and measurements: no answer depends on them.
-struct WorldOptions {
-    BallEarlyOut ball_early_out = BallEarlyOut::measured;
-    std::optional<BroadPhaseKind> broad_phase = std::nullopt;  ///< by default the world chooses
-    /// Whether contacts() has the normals of the surface that neighbouring items form together (docs/ghosts.md). If
-    /// not, each pair has its own contact. Events don't depend on it.
-    bool filter_edges = true;
-    /// How many shapes the world holds for `restore` that no item has any more: the last that a snapshot refers to.
-    std::size_t max_released_shapes = 1024;
-};
-
-/// The items that a query takes into account.
-struct Filter {
-    std::uint32_t layers = 0xffffffff;  ///< the query pairs as an item on these layers does
-    std::uint32_t mask = 0xffffffff;    ///< the query finds items on one of these layers only
-    bool sensors = false;               ///< whether the query finds sensors as well
-    Id ignore{};                        ///< an item to skip, such as the one that the query is for
-    /// More items to skip, such as a vehicle's parts. They are compared one by one, so a layer is faster for hundreds.
-    /// The ids must outlive the filter.
-    std::span<const Id> ignore_ids{};
-};
-
-/// The changes of an update. Each list is sorted and valid until the next update.
-///
-/// If one of two items is continuous, the pair also begins to touch if it touched during the motion since the last
-/// update, even if the items have passed each other by now. During that motion, an item's position changes linearly and
-/// its rotation at a constant rate along the shorter arc. A pair that touched only during the motion has no contact. It
-/// ends in the next update in any case; if it touches again by then, it begins there as well. Items that were added or
-/// got a new shape since the last update rest at their present pose. A pair that touched at the last update isn't
-/// tested for the motion since.
-struct Events {
-    std::span<const IdPair> began;   ///< pairs that touch now and did not before
-    std::span<const IdPair> stayed;  ///< pairs that touch now and did before
-    std::span<const IdPair> ended;   ///< pairs that no longer touch, also if an item was removed
-    /// The time of impact of each pair of `began`, as a fraction of the motion since the last update; 1 if only the
-    /// present state was tested, such as for a pair without a continuous item.
-    std::span<const float> fractions;
-};
-
-template <int D>
-struct WorldContact {
-    Id a, b;
-    Contact<D> contact;
-};
-
-/// The impact of two items between two updates, as abut::sweep reports it for `a`: the normal faces `a`, and the point
-/// is the point of contact at the time of impact.
-template <int D>
-struct WorldImpact {
-    Id a, b;
-    Hit<D> hit;
-};
-
-template <int D>
-struct WorldHit {
-    Id id;
-    Hit<D> hit;
-};
-
-template <int D>
-struct WorldClosest {
-    Id id;
-    Closest<D> closest;  ///< from the query's point or shape (A) to the item (B)
-};
-
-/// The work of the last update, in pairs.
-struct UpdateCounts {
-    std::size_t near = 0;    ///< pairs whose layers agree and whose AABBs, or swept AABBs if continuous, overlap
-    std::size_t tested = 0;  ///< near pairs that were tested because an item had moved
-    std::size_t balls = 0;   ///< tested pairs that bounding balls proved to be apart; depends on measurements
-};
-
-namespace detail {
-
-/// The overloads of World::sweep without the shape.
-template <int D>
-struct MotionsInWorld {
-    void operator()(const Vec<D>&, const Filter& = {}) const;
-    void operator()(const Motion<D>&, const Filter& = {}) const;
-    void operator()(const Pose<D>&, const Pose<D>&, const Filter& = {}) const;
-};
-
-/// Names the reason why World::sweep does not take some arguments.
-template <int D, class S, class... Motions>
-requires(!ShapeIn<S, D> || !std::is_invocable_v<MotionsInWorld<D>, Motions...> ||
-         (is_other_point<Motions, D> || ...)) using WhyNoSweepInWorld =
-    std::conditional_t<!Shape<S>, this_is_no_shape,
-                       std::conditional_t<ShapeIn<S, D>, a_Pose_of_this_dimension_is_needed_here_and_not_a_position,
-                                          this_shape_has_another_dimension>>;
-
-}  // namespace detail
 
 /// A collision world. All lists are sorted by id, and no answer depends on the order in which items were added except
 /// through the ids.
@@ -431,48 +326,6 @@ private:
         }
     };
 
-    /// What else is known of a contact of a touching pair.
-    struct FoundState {
-        detail::SurfaceNormalFlags
-            surface_normal;             // false for an item if the normal is a substitute for one of an internal edge
-        float size = 0;                 // then that of the smaller item
-        bool reported = true;           // whether it is among contacts()
-        std::uint32_t own_area = none;  // of a ghost: the index of its points on the faces of the two items
-    };
-    /// Contacts of touching pairs, before ghost contacts are dropped.
-    struct FoundContacts {
-        std::vector<WorldContact<D>> contacts;
-        std::vector<FoundState> states;  // by index in contacts
-        std::vector<WorldContact<D>> own_areas;
-
-        std::size_t size() const { return contacts.size(); }
-        void clear() {
-            contacts.clear();
-            states.clear();
-            own_areas.clear();
-        }
-        void reserve_like(const FoundContacts& other) {
-            contacts.reserve(other.contacts.capacity());
-            states.reserve(other.states.capacity());
-            own_areas.reserve(other.own_areas.capacity());
-        }
-        void set_own_area(std::size_t index, const WorldContact<D>& area) {
-            states[index].own_area = static_cast<std::uint32_t>(own_areas.size());
-            own_areas.push_back(area);
-        }
-        WorldContact<D>& add(const IdPair& pair, const FoundState& state) {
-            states.push_back(state);
-            WorldContact<D>& added = contacts.emplace_back();
-            added.a = pair.a;
-            added.b = pair.b;
-            return added;
-        }
-        void pop_back() {
-            contacts.pop_back();
-            states.pop_back();
-        }
-    };
-
     static View<D> point_view(const Vec<D>& point) {
         detail::clear_upper_halves();
         return View<D>(detail::round_points<D>({point}, 0));
@@ -623,7 +476,7 @@ private:
     };
     EdgeFilterMemory edges_;                        // made by the first update that filters
     std::vector<IdPair> touching_, last_touching_;  // now and at the last update
-    FoundContacts found_, last_found_;
+    detail::FoundContacts<D> found_, last_found_;
     bool are_all_reported_ = true;              // of found_
     std::vector<WorldContact<D>> contacts_;     // those of found_ that are reported, if not all are
     std::vector<WorldImpact<D>> impacts_;       // of continuous pairs that didn't touch at the last update

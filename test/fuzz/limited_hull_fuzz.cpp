@@ -89,7 +89,7 @@ void check_plane(const std::vector<Vec2>& points, std::uint32_t limit) {
         area += 0.5 * cross(DVec<2>(a) - origin, DVec<2>(b) - origin);
         for (const Vec2& point : points) require(orientation(a, b, point) >= 0);
     }
-    const DVec<2> side = max_corner<2>(points) - min_corner<2>(points);
+    const DVec<2> side = min_max<2>(points).sides();
     if (limit >= 4) require(area <= side.x * side.y * (1 + 1e-9));
 }
 
@@ -126,7 +126,7 @@ void check_space(const std::vector<Vec3>& points, std::uint32_t limit) {
             require(dot(DVec<3>(built->normals[face]), DVec<3>(point)) <= built->offsets[face]);
     if (built->rank < 3) return;
     check_held(built->points, points);
-    const DVec<3> side = max_corner<3>(points) - min_corner<3>(points);
+    const DVec<3> side = min_max<3>(points).sides();
     if (limit >= 8 && full.rank == 3) require(built->volume <= side.x * side.y * side.z * (1 + 1e-9));
 }
 

@@ -12,9 +12,10 @@ namespace {
 template <class Point>
 HullGrid grid_of(std::span<const Point> points) {
     HullGrid result;
-    result.least = min_corner<3>(points);
-    result.greatest = max_corner<3>(points);
-    const double side = largest(result.greatest - result.least);
+    const MinMax<3> box = min_max<3>(points);
+    result.least = box.min;
+    result.greatest = box.max;
+    const double side = largest(box.sides());
     int exponent = 0;
     std::frexp(side, &exponent);  // side < 2^exponent
     result.step = std::ldexp(1.0, exponent - grid_bits);

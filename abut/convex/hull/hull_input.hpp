@@ -50,7 +50,7 @@ inline std::vector<Vec3> sorted_without_copies(std::vector<Vec3> points) {
 /// The longest side of the bounding box.
 template <int D>
 double extent(std::span<const Vec<D>> points) {
-    return largest(max_corner<D>(points) - min_corner<D>(points));
+    return largest(min_max<D>(points).sides());
 }
 
 }  // namespace abut::detail

@@ -175,7 +175,8 @@ std::vector<Vec3> planes_of(Body& body, const DirectionMap& map) {
 std::vector<Vec3> without_interior_points(std::span<const Vec3> points) {
     std::vector<Vec3> all(points.begin(), points.end());
     if (points.size() < min_points) return all;
-    const DVec<3> low = min_corner<3>(points), high = max_corner<3>(points), side = high - low;
+    const auto [low, high] = min_max<3>(points);
+    const DVec<3> side = high - low;
     const double extent = largest(side);
     if (!(extent > min_extent && extent < max_extent) || std::min({side.x, side.y, side.z}) < min_thickness * extent)
         return all;

@@ -52,7 +52,7 @@ void add_loops(ClipBody<3>& body, std::span<const std::uint32_t> loops, std::spa
 
 /// The hull of the points rounded to floats, relative to their middle.
 ClipBody<3> rebuilt(const std::vector<DVec<3>>& points) {
-    const DVec<3> origin = 0.5 * (min_corner<3>(points) + max_corner<3>(points));
+    const DVec<3> origin = min_max<3>(points).middle();
     std::vector<Vec3> rounded;
     for (const DVec<3>& point : points) rounded.push_back(to_float(point - origin));
     const Hull3 built = *hull(rounded);

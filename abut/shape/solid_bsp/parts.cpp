@@ -12,7 +12,7 @@ namespace {
 /// corners keep all their bits, and other corners keep more bits than a float at that distance.
 template <int D>
 DVec<D> origin_of(std::span<const DVec<D>> corners) {
-    const DVec<D> low = min_corner<D>(corners), high = max_corner<D>(corners);
+    const auto [low, high] = min_max<D>(corners);
     DVec<D> result(0.0);
     const double extent = largest(high - low);
     if (extent == 0) return result;

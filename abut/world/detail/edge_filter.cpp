@@ -333,7 +333,7 @@ void World<D>::report_contacts() {
                              (state.surface_normal.b || !is_covered(i, found.b));
         if (state.reported)
             contacts_.push_back(found);
-        else if (state.own_area != none)
+        else if (state.own_area != FoundState::no_own_area)
             contacts_.push_back(found_.own_areas[state.own_area]);
     }
 }

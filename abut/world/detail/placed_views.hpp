@@ -11,10 +11,20 @@
 
 namespace abut::detail {
 
-/// It takes no memory before its first use.
+/// It takes no memory before its first use, and a copy is empty.
 template <int D>
 class PlacedViews {
 public:
+    PlacedViews() = default;
+    PlacedViews(const PlacedViews&) noexcept : PlacedViews() {}
+    PlacedViews& operator=(const PlacedViews&) noexcept {
+        clear();
+        return *this;
+    }
+    PlacedViews(PlacedViews&&) noexcept = default;
+    PlacedViews& operator=(PlacedViews&&) noexcept = default;
+    ~PlacedViews() = default;
+
     /// The view of a slot, made by `make()` if it isn't cached. Valid until the next call.
     template <class Make>
     const View<D>& of(std::uint32_t slot, const Make& make) {

@@ -27,7 +27,7 @@ constexpr int tightening_rounds = 8;
 
 /// Whether all points lie in the hull of a closed surface with outward winding: none is above a triangle.
 bool holds(std::span<const Vec3> corners, std::span<const std::uint32_t> triangles, std::span<const Vec3> points) {
-    const DVec<3> low = min_corner<3>(points), high = max_corner<3>(points);
+    const auto [low, high] = min_max<3>(points);
     for (std::size_t i = 0; i < triangles.size(); i += 3) {
         const Vec3 &a = corners[triangles[i]], &b = corners[triangles[i + 1]], &c = corners[triangles[i + 2]];
         const DVec<3> origin(a), u = DVec<3>(b) - origin, v = DVec<3>(c) - origin, normal = cross(u, v);

@@ -133,7 +133,7 @@ std::optional<HullOf<D>> smallest_rounded(std::vector<OuterBody<D>> bodies, std:
     for (const Vec<D>& point : points) seen.push_back(frame.from_world(DVec<D>(point)));
     std::optional<HullOf<D>> best;
     if (limit >= 1u << D) {
-        const DVec<D> low = min_corner<D>(points), high = max_corner<D>(points);
+        const auto [low, high] = min_max<D>(points);
         std::vector<Vec<D>> box;
         for (unsigned choice = 0; choice < 1u << D; ++choice) {
             DVec<D> corner;

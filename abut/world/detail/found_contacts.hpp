@@ -1,0 +1,60 @@
+#pragma once
+
+// The contacts that an update of a world finds, and what the filter of internal edges knows of them.
+
+#include <abut/query/detail/surface/surface_normal_flags.hpp>
+#include <abut/world/results.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace abut::detail {
+
+/// What else is known of a contact of a touching pair.
+struct FoundState {
+    static constexpr std::uint32_t no_own_area = 0xFFFFFFFF;
+
+    /// False for an item if the normal is a substitute for one of an internal edge.
+    SurfaceNormalFlags surface_normal;
+    float size = 0;                        ///< then that of the smaller item
+    bool reported = true;                  ///< whether it is among World::contacts()
+    std::uint32_t own_area = no_own_area;  ///< of a ghost: the index of its points on the faces of the two items
+};
+
+/// Contacts of touching pairs, before ghost contacts are dropped.
+template <int D>
+struct FoundContacts {
+    std::vector<WorldContact<D>> contacts;
+    std::vector<FoundState> states;  ///< by index in contacts
+    std::vector<WorldContact<D>> own_areas;
+
+    std::size_t size() const { return contacts.size(); }
+    void clear() {
+        contacts.clear();
+        states.clear();
+        own_areas.clear();
+    }
+    void reserve_like(const FoundContacts& other) {
+        contacts.reserve(other.contacts.capacity());
+        states.reserve(other.states.capacity());
+        own_areas.reserve(other.own_areas.capacity());
+    }
+    void set_own_area(std::size_t index, const WorldContact<D>& area) {
+        states[index].own_area = static_cast<std::uint32_t>(own_areas.size());
+        own_areas.push_back(area);
+    }
+    WorldContact<D>& add(const IdPair& pair, const FoundState& state) {
+        states.push_back(state);
+        WorldContact<D>& added = contacts.emplace_back();
+        added.a = pair.a;
+        added.b = pair.b;
+        return added;
+    }
+    void pop_back() {
+        contacts.pop_back();
+        states.pop_back();
+    }
+};
+
+}  // namespace abut::detail
