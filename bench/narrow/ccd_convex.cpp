@@ -28,9 +28,9 @@ struct Pair {
 };
 
 std::vector<DVec<3>> points_of(const scenes::AnyConvex<3>& shape) {
-    if (const Box3* box = std::get_if<Box3>(&shape)) return {to_double<3>(box->half)};
+    if (const Box3* box = std::get_if<Box3>(&shape)) return {DVec<3>(box->half)};
     std::vector<DVec<3>> result;
-    for (const Vec3& point : std::get<Polyhedron>(shape).points()) result.push_back(to_double<3>(point));
+    for (const Vec3& point : std::get<Polyhedron>(shape).points()) result.push_back(DVec<3>(point));
     return result;
 }
 
