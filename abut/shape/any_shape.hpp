@@ -4,6 +4,7 @@
 
 #include <abut/shape/ball.hpp>
 #include <abut/shape/box.hpp>
+#include <abut/shape/capsule.hpp>
 #include <abut/shape/detail/counted.hpp>
 #include <abut/shape/placed.hpp>
 
@@ -13,11 +14,15 @@
 namespace abut::detail {
 
 /// The bounding box without a view, bit for bit that of the view. It is empty if a number of the shape or the pose is
-/// NaN or infinite.
+/// NaN or infinite. `grow` adds a margin on each side, `query_margin` times the sum of the box's widths.
 template <int D>
-Aabb<D> bounds_at(const Ball<D>& ball, const Pose<D>& pose);
+Aabb<D> bounds_at(const Ball<D>& ball, const Pose<D>& pose, bool grow);
 template <int D>
-Aabb<D> bounds_at(const Box<D>& box, const Pose<D>& pose);
+Aabb<D> bounds_at(const Box<D>& box, const Pose<D>& pose, bool grow);
+template <int D>
+Aabb<D> bounds_at(const Capsule<D>& capsule, const Pose<D>& pose, bool grow);
+template <int D>
+Aabb<D> bounds_at(const View<D>& placed, bool grow);
 
 }  // namespace abut::detail
 
@@ -37,7 +42,11 @@ public:
     /// A view of the shape after a rigid map.
     View<D> moved(const detail::Affine<D>& rigid) const { return stored_->moved(rigid); }
     /// The bounding box of the shape at a pose; empty if a number is NaN or infinite.
-    Aabb<D> bounds(const Pose<D>& pose) const { return stored_->bounds(pose); }
+    Aabb<D> bounds(const Pose<D>& pose) const { return stored_->bounds(pose, false); }
+    /// The same with a margin, so that it rejects no hit within the tolerance: a ray may hit a shape that it misses by
+    /// rounding (1e-7 of the shape's size), and a sweep one that it misses by the tolerance. The margin covers the part
+    /// of the tolerance that grows with the larger of two shapes.
+    Aabb<D> bounds_for_queries(const Pose<D>& pose) const { return stored_->bounds(pose, true); }
     /// Whether both are copies of one AnyShape, which share its data.
     bool is_shared_with(const AnyShape& other) const { return stored_ == other.stored_; }
 
@@ -46,7 +55,7 @@ private:
         virtual ~Stored() = default;
         virtual View<D> view() const = 0;
         virtual View<D> moved(const detail::Affine<D>& rigid) const = 0;
-        virtual Aabb<D> bounds(const Pose<D>& pose) const = 0;
+        virtual Aabb<D> bounds(const Pose<D>& pose, bool grow) const = 0;
     };
     template <class S>
     struct StoredOf final : Stored {
@@ -67,13 +76,13 @@ private:
             detail::clear_upper_halves();
             return detail::moved(own, rigid);
         }
-        Aabb<D> bounds(const Pose<D>& pose) const override {
-            if constexpr (std::is_same_v<S, Ball<D>> || std::is_same_v<S, Box<D>>) {
-                return detail::bounds_at(shape, pose);
-            } else {
-                const View<D> placed = moved(detail::affine(pose));
-                return detail::is_finite(placed) ? detail::bounds(placed) : Aabb<D>::empty();
-            }
+        Aabb<D> bounds(const Pose<D>& pose, bool grow) const override {
+            constexpr bool is_short =
+                std::is_same_v<S, Ball<D>> || std::is_same_v<S, Box<D>> || std::is_same_v<S, Capsule<D>>;
+            if constexpr (is_short)
+                return detail::bounds_at(shape, pose, grow);
+            else
+                return detail::bounds_at<D>(moved(detail::affine(pose)), grow);
         }
 
         const S shape;

@@ -25,7 +25,7 @@ void World<D>::widen_boxes() {
         const Item& item = items_[slot];
         if (item.previous == none || detail::is_empty(box(slot))) continue;
         const Pose<D>& from = previous_poses_[item.previous];
-        const Aabb<D> first = box_at(item, from);
+        const Aabb<D> first = item.stored.bounds_for_queries(from);
         if (detail::is_empty(first)) continue;
         detail::SweptBox<D>& path = swept_boxes_[item.previous];
         path = detail::swept_box(item.local_ball.ball(), first, Motion<D>::between(from, item.pose));

@@ -350,7 +350,7 @@ void World<D>::restore_item(const SavedItem& saved) {
         set_shape_data(item);
         add_to_boxes(saved.slot);
     }
-    if (!has_box) boxes_of(item).set(item.place, box_at(item, item.pose));
+    if (!has_box) boxes_of(item).set(item.place, item.stored.bounds_for_queries(item.pose));
 }
 
 template <int D>

@@ -3,22 +3,8 @@
 #include <abut/math/assert.hpp>
 #include <abut/world/world.hpp>
 
-#include <algorithm>
-
 namespace abut {
-namespace {
-
-/// The entry of a pair in a list sorted by pairs; null if there is none.
-template <class Entry>
-const Entry* entry_of(std::span<const Entry> list, const IdPair& pair) {
-    const IdPair wanted{std::min(pair.a, pair.b), std::max(pair.a, pair.b)};
-    const auto place = std::lower_bound(list.begin(), list.end(), wanted, [](const Entry& entry, const IdPair& p) {
-        return IdPair{entry.a, entry.b} < p;
-    });
-    return place != list.end() && IdPair{place->a, place->b} == wanted ? &*place : nullptr;
-}
-
-}  // namespace
+using detail::entries_of;
 
 template <int D>
 void World<D>::visit_touching(Id id, FunctionRef<bool(Id)> visit) const {
@@ -39,14 +25,14 @@ std::vector<Id> World<D>::touching(Id id) const {
 
 template <int D>
 Contact<D> World<D>::contact(const IdPair& pair) const {
-    const WorldContact<D>* found = entry_of(contacts(), pair);
-    return found != nullptr ? found->contact : Contact<D>{};
+    const auto found = entries_of(contacts(), pair);
+    return found.empty() ? Contact<D>{} : found.front().contact;
 }
 
 template <int D>
 std::optional<Hit<D>> World<D>::impact(const IdPair& pair) const {
-    const WorldImpact<D>* found = entry_of(std::span<const WorldImpact<D>>(impacts_), pair);
-    return found != nullptr ? std::optional(found->hit) : std::nullopt;
+    const auto found = entries_of(std::span<const WorldImpact<D>>(impacts_), pair);
+    return found.empty() ? std::nullopt : std::optional(found.front().hit);
 }
 
 template class World<2>;

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <bit>
 
+#include <hwy/cache_control.h>
+
 namespace abut {
 
 template <int D>
@@ -33,9 +35,9 @@ void World<D>::add_if_near(std::uint32_t slot, std::uint32_t other) {
     if ((a.layers & b.mask) == 0 || (b.layers & a.mask) == 0) return;
     if (a.type == detail::ShapeType::half_space && b.type == detail::ShapeType::half_space) return;
     near_keys_.push_back(std::uint64_t{std::min(slot, other)} << slot_bits() | std::max(slot, other));
-    if (!filters_edges_) return;
-    edges_->list_of_slot[slot] += a.fixed ? 0 : 1;
-    edges_->list_of_slot[other] += b.fixed ? 0 : 1;
+    if (!filters_edges_ || !are_solid(slot, other)) return;
+    if (!a.fixed) edges_->count_partner(slot);
+    if (!b.fixed) edges_->count_partner(other);
 }
 
 /// The number of bits of a slot in near_keys_.
@@ -44,7 +46,7 @@ int World<D>::slot_bits() const {
     return static_cast<int>(std::bit_width(items_.size()));
 }
 
-/// Writes the near pairs in the order of their ids.
+/// Writes the near pairs in the order of their ids, and lists the partners of the items whose contacts are filtered.
 template <int D>
 void World<D>::sort_near() {
     sorted_near_keys_.reserve(near_keys_.capacity());
@@ -56,9 +58,34 @@ void World<D>::sort_near() {
     std::swap(near_, last_near_);
     near_.resize(near_keys_.size());
     const std::uint64_t low_bits = (std::uint64_t{1} << bits) - 1;
-    for (std::size_t i = 0; i < near_.size(); ++i)
-        near_[i] = {id_of(static_cast<std::uint32_t>(sorted[i] >> bits)),
-                    id_of(static_cast<std::uint32_t>(sorted[i] & low_bits))};
+    if (filters_edges_) edges_->place_partners();
+    for (std::size_t i = 0; i < near_.size(); ++i) {
+        const auto a = static_cast<std::uint32_t>(sorted[i] >> bits);
+        const auto b = static_cast<std::uint32_t>(sorted[i] & low_bits);
+        near_[i] = {id_of(a), id_of(b)};
+        if (filters_edges_ && are_solid(a, b)) add_partners(a, b);
+    }
+}
+
+/// Adds each of two items to the partners of the other one, if the other one's contacts are filtered.
+template <int D>
+void World<D>::add_partners(std::uint32_t slot, std::uint32_t other) {
+    const Item &a = items_[slot], &b = items_[other];
+    if (!a.fixed) edges_->add_partner(slot, {b.place, b.fixed});
+    if (!b.fixed) edges_->add_partner(other, {a.place, a.fixed});
+}
+
+/// Tests all near pairs. Items are in memory by slot, and so those of a pair far apart: those of later pairs are
+/// fetched meanwhile.
+template <int D>
+void World<D>::test_near() {
+    constexpr std::size_t ahead = 8, cache_line = 64;
+    for (std::size_t i = 0; i < near_.size(); ++i) {
+        const Item& later = items_[near_[std::min(i + ahead, near_.size() - 1)].b.index - 1];
+        hwy::Prefetch(&later);
+        hwy::Prefetch(reinterpret_cast<const char*>(&later) + cache_line);
+        test_pair(near_[i]);
+    }
 }
 
 /// Tests a near pair. If neither item changed, the last result is repeated.
@@ -88,15 +115,15 @@ template <int D>
 void World<D>::repeat_last(const IdPair& pair) {
     if (!std::binary_search(last_touching_.begin(), last_touching_.end(), pair)) return;
     touching_.push_back(pair);
-    const auto [first, end] = last_contacts(pair);
-    if (first == end) return;
+    const std::span<const WorldContact<D>> all = last_found_.contacts, found = detail::entries_of(all, pair);
+    if (found.empty()) return;
     if (neighbours_changed(pair)) {
         find_contact(pair);
         return;
     }
-    for (std::size_t i = first; i < end; ++i) {
-        const detail::FoundState& last = last_found_.states[i];
-        found_.add(pair, last) = last_found_.contacts[i];
+    for (const WorldContact<D>& contact : found) {
+        const detail::FoundState& last = last_found_.states[static_cast<std::size_t>(&contact - all.data())];
+        found_.add(pair, last) = contact;
         if (last.own_area != detail::FoundState::no_own_area)
             found_.set_own_area(found_.size() - 1, last_found_.own_areas[last.own_area]);
     }
@@ -203,8 +230,7 @@ Events World<D>::find_events() {
     views_.clear();
     first_.slot = none;
     counts_ = {near_.size(), 0, 0};
-    list_partners();
-    for (const IdPair& pair : near_) test_pair(pair);
+    test_near();
     filter_contacts();
     report_contacts();
     ball_early_outs_.decide();

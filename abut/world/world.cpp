@@ -9,20 +9,6 @@ namespace abut {
 
 using namespace detail;
 
-namespace {
-
-/// Grows a box so that it rejects no hit within the tolerance: a ray may hit a shape that it misses by rounding (1e-7
-/// of the shape's size), and a sweep one that it misses by the tolerance. This margin covers the part of the tolerance
-/// that grows with the larger of two shapes.
-template <int D>
-Aabb<D> box_for_queries(const Aabb<D>& box) {
-    float widest = 0;
-    for (int i = 0; i < D; ++i) widest = std::max(widest, box.max[i] - box.min[i]);
-    return widest > 0 && std::isfinite(widest) ? grown(box, 1e-6f * widest) : box;
-}
-
-}  // namespace
-
 template <int D>
 const typename World<D>::Item* World<D>::find(Id id) const {
     if (id.index == 0 || id.index > items_.size()) return nullptr;
@@ -141,15 +127,10 @@ void World<D>::free_slot(std::uint32_t slot) {
 template <int D>
 void World<D>::update_box(std::uint32_t slot) {
     Item& item = items_[slot];
-    const Aabb<D> box = box_at(item, item.pose);
+    const Aabb<D> box = item.stored.bounds_for_queries(item.pose);
     ABUT_ASSERT(!is_empty(box) || is_finite(placed(item)));
     boxes_of(item).set(item.place, box);
     mark_pending(slot);
-}
-
-template <int D>
-Aabb<D> World<D>::box_at(const Item& item, const Pose<D>& pose) const {
-    return box_for_queries(item.stored.bounds(pose));
 }
 
 template <int D>

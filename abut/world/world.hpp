@@ -9,6 +9,7 @@
 #include <abut/query/raycast.hpp>
 #include <abut/shape/any_shape.hpp>
 #include <abut/world/detail/bounding_ball.hpp>
+#include <abut/world/detail/edge_filter_memory.hpp>
 #include <abut/world/detail/found_contacts.hpp>
 #include <abut/world/detail/item_boxes.hpp>
 #include <abut/world/detail/pair_index.hpp>
@@ -35,8 +36,6 @@ template <int D>
 struct ClosestPoint;
 template <int D>
 struct DeepestParts;
-template <int D>
-struct EdgeFilterState;
 template <int D>
 struct SurfaceContact;
 
@@ -363,7 +362,6 @@ private:
         return (item.fixed ? fixed_ : moving_).box(item.place);
     }
     View<D> placed(const Item& item) const { return item.stored.moved(detail::affine(item.pose)); }
-    Aabb<D> box_at(const Item& item, const Pose<D>& pose) const;
     detail::BoundingBall<D> ball(const Item& item) const;
     const View<D>& placed_view(std::uint32_t slot) {
         return views_.of(slot, [&] { return placed(items_[slot]); });
@@ -392,6 +390,8 @@ private:
     void add_if_near(std::uint32_t slot, std::uint32_t other);
     int slot_bits() const;
     void sort_near();
+    void add_partners(std::uint32_t slot, std::uint32_t other);
+    void test_near();
     void test_pair(const IdPair& pair);
     bool test_touch(const IdPair& pair);
     void test_motion(const IdPair& pair, bool touch);
@@ -401,23 +401,26 @@ private:
     bool test_shapes(const IdPair& pair);
     bool measure(const IdPair& pair, detail::BallEarlyOuts::Entry& entry);
     bool filters_edges(std::uint32_t slot) const;
-    bool are_solid(std::uint32_t slot, std::uint32_t other) const;
+    /// Whether both items are part of the surface that a third one touches. Sensors are not.
+    bool are_solid(std::uint32_t slot, std::uint32_t other) const {
+        return !items_[slot].sensor && !items_[other].sensor;
+    }
     void reserve_edge_filter();
-    void list_partners();
     void find_changed_neighbours();
     bool neighbours_changed(const IdPair& pair);
     void each_closest_point_beside(std::uint32_t slot, std::uint32_t other, const detail::DVec<D>& point, double within,
                                    FunctionRef<double(const detail::ClosestPoint<D>&)> visit);
     bool is_center_covered(std::uint32_t slot);
-    bool is_alone(const Contact<D>& contact, std::uint32_t slot, std::uint32_t other, double side) const;
     bool find_contact(const IdPair& pair);
-    bool needs_filter(std::uint32_t slot, std::uint32_t other, const Contact<D>* contact, double side);
+    bool has_neighbours(std::uint32_t slot);
+    bool has_partner_in(const Aabb<D>& near, std::uint32_t slot, std::uint32_t other) const;
+    bool needs_filter(std::uint32_t slot);
+    bool needs_filter(std::uint32_t slot, std::uint32_t other, const Contact<D>& contact, float side);
     bool find_surface_contacts(const IdPair& pair);
     void filter_contacts();
     template <class Use>
     void with_neighbours(std::uint32_t a, std::uint32_t b, bool for_a, bool for_b, const Use& use);
     void set_found(std::size_t index, const detail::SurfaceContact<D>& filtered);
-    std::pair<std::size_t, std::size_t> last_contacts(const IdPair& pair) const;
     bool is_covered(std::size_t ghost, const Id& item) const;
     void link_contacts();
     void report_contacts();
@@ -463,18 +466,7 @@ private:
 
     std::vector<std::uint64_t> near_keys_, sorted_near_keys_;
     std::vector<IdPair> near_, last_near_;
-    struct DeleteEdgeFilterState {
-        void operator()(detail::EdgeFilterState<D>* state) const;
-    };
-    /// The memory of an update; a copy of a world has none yet.
-    struct EdgeFilterMemory : std::unique_ptr<detail::EdgeFilterState<D>, DeleteEdgeFilterState> {
-        EdgeFilterMemory() = default;
-        EdgeFilterMemory(const EdgeFilterMemory&) noexcept : EdgeFilterMemory() {}
-        EdgeFilterMemory& operator=(const EdgeFilterMemory&) noexcept { return *this; }
-        EdgeFilterMemory(EdgeFilterMemory&&) noexcept = default;
-        EdgeFilterMemory& operator=(EdgeFilterMemory&&) noexcept = default;
-    };
-    EdgeFilterMemory edges_;                        // made by the first update that filters
+    detail::EdgeFilterMemory<D> edges_;             // made by the first update that filters
     std::vector<IdPair> touching_, last_touching_;  // now and at the last update
     detail::FoundContacts<D> found_, last_found_;
     bool are_all_reported_ = true;              // of found_

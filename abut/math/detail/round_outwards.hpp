@@ -13,9 +13,9 @@ namespace abut::detail {
 /// nearest float lies.
 inline float float_at_most(double x) {
     const auto nearest = static_cast<float>(x);
-    const std::uint32_t mask = 0u - static_cast<std::uint32_t>(static_cast<double>(nearest) > x);
-    return std::bit_cast<float>((std::bit_cast<std::uint32_t>(next_down(nearest)) & mask) |
-                                (std::bit_cast<std::uint32_t>(nearest) & ~mask));
+    const auto bits = std::bit_cast<std::int32_t>(nearest);
+    const std::int32_t is_above = static_cast<double>(nearest) > x;
+    return std::bit_cast<float>(bits - (step_up(bits) & -is_above));
 }
 
 /// The smallest float that is not below x; NaN for NaN.

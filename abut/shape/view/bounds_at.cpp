@@ -9,13 +9,18 @@
 namespace abut::detail {
 namespace {
 
-/// The box of half extents `reach` + `radius` around the middle, rounded outwards.
+constexpr double query_margin = 1e-6;
+
+/// The box from `low` to `high` with a ball around it, rounded outwards.
 template <int D>
-Aabb<D> box_around(const DVec<D>& middle, const DVec<D>& reach, double radius) {
+Aabb<D> rounded_box(const DVec<D>& low, const DVec<D>& high, double radius, bool grow) {
+    double size = 0;
+    for (int i = 0; i < D; ++i) size += high[i] - low[i] + 2 * radius;
+    const double margin = grow ? query_margin * size : 0;
     Aabb<D> result;
     for (int i = 0; i < D; ++i) {
-        result.min[i] = float_at_most(middle[i] - reach[i] - radius);
-        result.max[i] = float_at_least(middle[i] + reach[i] + radius);
+        result.min[i] = float_at_most(low[i] - radius - margin);
+        result.max[i] = float_at_least(high[i] + radius + margin);
     }
     return result;
 }
@@ -36,37 +41,69 @@ bool all_finite(const Vec<D>& a, const Vec<D>& b, const Pose<D>& pose) {
 }
 
 template <int D, class S>
-[[gnu::noinline]] Aabb<D> bounds_of_view(const S& shape, const Pose<D>& pose) {
-    const Convex<D> placed = moved(convex(shape), affine(pose));
-    return is_finite(placed) ? bounds(placed) : Aabb<D>::empty();
+[[gnu::noinline]] Aabb<D> bounds_of_view(const S& shape, const Pose<D>& pose, bool grow) {
+    return bounds_at(View<D>(moved(convex(shape), affine(pose))), grow);
 }
 
 }  // namespace
 
 template <int D>
-Aabb<D> bounds_at(const Ball<D>& ball, const Pose<D>& pose) {
-    detail::enter_library();
-    if (ball.center != Vec<D>(0.0f) || !all_finite(ball.center, Vec<D>(ball.radius), pose))
-        return bounds_of_view(ball, pose);
-    return box_around(DVec<D>(pose.position), DVec<D>(0.0), static_cast<double>(ball.radius));
+Aabb<D> bounds_at(const View<D>& placed, bool grow) {
+    if (!is_finite(placed)) return Aabb<D>::empty();
+    const Aabb<D> box = bounds(placed);
+    double size = 0;
+    for (int i = 0; i < D; ++i) size += static_cast<double>(box.max[i]) - static_cast<double>(box.min[i]);
+    // Not if it is empty or unbounded.
+    return grow && size > 0 && std::isfinite(size) ? grown(box, static_cast<float>(query_margin * size)) : box;
 }
 
 template <int D>
-Aabb<D> bounds_at(const Box<D>& box, const Pose<D>& pose) {
+Aabb<D> bounds_at(const Ball<D>& ball, const Pose<D>& pose, bool grow) {
     detail::enter_library();
-    if (box.rotation != no_rotation<D> || !all_finite(box.center, box.half, pose)) return bounds_of_view(box, pose);
+    if (ball.center != Vec<D>(0.0f) || !all_finite(ball.center, Vec<D>(ball.radius), pose))
+        return bounds_of_view(ball, pose, grow);
+    const DVec<D> center(pose.position);
+    return rounded_box(center, center, static_cast<double>(ball.radius), grow);
+}
+
+template <int D>
+Aabb<D> bounds_at(const Box<D>& box, const Pose<D>& pose, bool grow) {
+    detail::enter_library();
+    if (box.rotation != no_rotation<D> || !all_finite(box.center, box.half, pose))
+        return bounds_of_view(box, pose, grow);
     Affine<D> place;
     set_affine(place, pose);
     DVec<D> reach(0.0);
     for (int i = 0; i < D; ++i)
         for (int j = 0; j < D; ++j)
             reach[i] += std::abs(place.column[static_cast<std::size_t>(j)][i]) * static_cast<double>(box.half[j]);
-    return box_around(place.point(DVec<D>(box.center)), reach, 0);
+    const DVec<D> center = place.point(DVec<D>(box.center));
+    return rounded_box(center - reach, center + reach, 0, grow);
 }
 
-template Aabb<2> bounds_at(const Ball<2>&, const Pose<2>&);
-template Aabb<3> bounds_at(const Ball<3>&, const Pose<3>&);
-template Aabb<2> bounds_at(const Box<2>&, const Pose<2>&);
-template Aabb<3> bounds_at(const Box<3>&, const Pose<3>&);
+template <int D>
+Aabb<D> bounds_at(const Capsule<D>& capsule, const Pose<D>& pose, bool grow) {
+    detail::enter_library();
+    if (!all_finite(capsule.a, capsule.b, pose) || !std::isfinite(capsule.radius))
+        return bounds_of_view(capsule, pose, grow);
+    Affine<D> place;
+    set_affine(place, pose);
+    const DVec<D> a = place.point(DVec<D>(capsule.a)), b = place.point(DVec<D>(capsule.b));
+    DVec<D> low, high;
+    for (int i = 0; i < D; ++i) {
+        low[i] = std::min(a[i], b[i]);
+        high[i] = std::max(a[i], b[i]);
+    }
+    return rounded_box(low, high, static_cast<double>(capsule.radius), grow);
+}
+
+#define ABUT_INSTANTIATE(D)                                              \
+    template Aabb<D> bounds_at(const Ball<D>&, const Pose<D>&, bool);    \
+    template Aabb<D> bounds_at(const Box<D>&, const Pose<D>&, bool);     \
+    template Aabb<D> bounds_at(const Capsule<D>&, const Pose<D>&, bool); \
+    template Aabb<D> bounds_at(const View<D>&, bool);
+ABUT_INSTANTIATE(2)
+ABUT_INSTANTIATE(3)
+#undef ABUT_INSTANTIATE
 
 }  // namespace abut::detail

@@ -7,6 +7,7 @@
 #include <abut/world/world.hpp>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace abut {
@@ -19,8 +20,29 @@ namespace {
 constexpr std::size_t max_listed_neighbours = 96;
 
 /// The filter looks for neighbours around a point at most this far away, in units of s by the radii of the bounding
-/// balls: 2.1 s, and s may be sqrt(3) times as large (see detail::size).
+/// balls: 2.1 s, and s may be sqrt(3) times as large (see detail::size). The rest is for rounding.
 constexpr float probe_reach = 4;
+
+/// The boxes of partners. If another box is given, those that don't overlap it are null.
+template <int D>
+class PartnerBoxes {
+public:
+    PartnerBoxes(const std::array<const ItemBoxes<D>*, 2>& of, const Aabb<D>* box) : box_(box) {
+        for (std::size_t i = 0; i < 2; ++i) {
+            boxes_[i] = of[i]->boxes().data();
+            slots_[i] = of[i]->slots().data();
+        }
+    }
+    Neighbour<D> operator()(BoxIndex partner) const {
+        const Aabb<D>& found = boxes_[partner.kind()][partner.place()];
+        return {box_ == nullptr || overlaps(found, *box_) ? &found : nullptr, slots_[partner.kind()][partner.place()]};
+    }
+
+private:
+    std::array<const Aabb<D>*, 2> boxes_;
+    std::array<const std::uint32_t*, 2> slots_;
+    const Aabb<D>* box_;
+};
 
 }  // namespace
 
@@ -30,32 +52,14 @@ bool World<D>::filters_edges(std::uint32_t slot) const {
     return filters_edges_ && !items_[slot].fixed;
 }
 
-/// Whether both items are part of the surface that a third one touches. Sensors are not.
 template <int D>
-bool World<D>::are_solid(std::uint32_t slot, std::uint32_t other) const {
-    return !items_[slot].sensor && !items_[other].sensor;
-}
-
-template <int D>
-void World<D>::DeleteEdgeFilterState::operator()(EdgeFilterState<D>* state) const {
+void detail::DeleteEdgeFilterState<D>::operator()(EdgeFilterState<D>* state) const {
     delete state;
 }
 
 template <int D>
 void World<D>::reserve_edge_filter() {
     if (filters_edges_) edges_->reserve(items_.size(), near_.capacity(), found_.contacts.capacity());
-}
-
-/// Lists the partners of the items whose contacts are filtered, among which needs_filter() finds their neighbours.
-template <int D>
-void World<D>::list_partners() {
-    if (!filters_edges_) return;
-    for (const IdPair& pair : near_) {
-        edges_->add_partner(pair.a.index - 1, pair.b.index - 1);
-        edges_->add_partner(pair.b.index - 1, pair.a.index - 1);
-    }
-    // References to its elements stay valid during the update.
-    edges_->nearest_to_center.reserve(edges_->lists.size());
 }
 
 /// Marks the items near which another one has changed.
@@ -89,7 +93,7 @@ void World<D>::each_closest_point_beside(std::uint32_t slot, std::uint32_t other
                                  [&](const ClosestPoint<D>& closest) { return within = visit(closest); });
         return within > stop_visiting;
     };
-    auto& list = *edges_->list_of(slot);
+    auto& list = edges_->list_of(slot);
     const std::uint32_t first = list.last_cover == other ? edges_->none : list.last_cover;
     if (first != edges_->none && !visit_item(first)) return;
     const Aabb<D> near = box_around(point, within);
@@ -115,12 +119,13 @@ void World<D>::each_closest_point_beside(std::uint32_t slot, std::uint32_t other
     }
 }
 
-/// Whether a neighbour contains the centre of the item's AABB. Then the item is too deep in others to have a surface.
+/// Whether a neighbour contains the centre of the item's AABB, without the margin of box(). Then the item is too deep
+/// in others to have a surface.
 template <int D>
 bool World<D>::is_center_covered(std::uint32_t slot) {
-    auto& list = *edges_->list_of(slot);
+    auto& list = edges_->list_of(slot);
     if (std::exchange(list.is_center_tested, true)) return list.is_center_covered;
-    const Vec<D> middle = center(box(slot));
+    const Vec<D> middle = center(items_[slot].stored.bounds(items_[slot].pose));
     if (!edges_->each_neighbour(list, {middle, middle}, [](std::uint32_t) { return false; }))
         each_closest_point_beside(slot, slot, DVec<D>(middle), 0, [&](const ClosestPoint<D>& closest) {
             list.is_center_covered = closest.distance < 0;
@@ -129,37 +134,66 @@ bool World<D>::is_center_covered(std::uint32_t slot) {
     return list.is_center_covered;
 }
 
-/// Whether no neighbour's AABB is near one of the deepest points of a contact, except that of `other`, which the item
-/// touches there. `side` is 1 if the item is A, and -1 if it is B.
+/// Whether an item that is filtered has several neighbours, so that it may touch another one beside a contact. Not if
+/// its centre is known to be covered.
 template <int D>
-bool World<D>::is_alone(const Contact<D>& contact, std::uint32_t slot, std::uint32_t other, double side) const {
-    constexpr auto scale = static_cast<float>(surface_probe_scale), rounding = 0x1p-21f;
-    const float s = scale * std::min(items_[slot].local_ball.radius, items_[other].local_ball.radius);
-    const float min_depth = contact.depth - static_cast<float>(0.5 * deepest_tolerance) * s;
-    const Vec<D> to_surface = contact.normal * static_cast<float>(-0.5 * side);
-    const auto& list = *edges_->list_of(slot);
-    return std::any_of(contact.points.begin(), contact.points.end(), [&](const ContactPoint<D>& point) {
-        if (point.depth < min_depth) return false;
-        const Vec<D> on_surface = point.position + to_surface * point.depth;
-        float reach = probe_reach * s + rounding * std::abs(point.depth);
-        for (int i = 0; i < D; ++i) reach += rounding * std::abs(point.position[i]);
-        const Aabb<D> near{on_surface - reach, on_surface + reach};
-        return edges_->each_neighbour(list, near, [&](std::uint32_t neighbour) { return neighbour == other; });
-    });
+bool World<D>::has_neighbours(std::uint32_t slot) {
+    const PartnerBoxes<D> boxes({&moving_, &fixed_}, widened_ ? &box(slot) : nullptr);
+    const auto is_neighbour = [&](BoxIndex partner) { return boxes(partner).box != nullptr; };
+    const std::span partners = edges_->partners_of(slot);
+    // Partners by their swept boxes may be apart.
+    if (widened_ && std::count_if(partners.begin(), partners.end(), is_neighbour) < 2) return false;
+    const auto* const list = edges_->list_of(slot, boxes);
+    return list != nullptr && !list->is_center_covered;
 }
 
-/// Whether the item in `slot` needs the surface of its neighbours for its contact with another item. The points of a
-/// contact of items without parts are known.
+/// Whether a composite contact of the item in `slot` needs the surface of its neighbours.
 template <int D>
-bool World<D>::needs_filter(std::uint32_t slot, std::uint32_t other, const Contact<D>* contact, double side) {
-    auto* const list = filters_edges_ ? edges_->list_of(slot) : nullptr;
-    if (list == nullptr) return false;
-    const auto box_of_neighbour = [&](std::uint32_t partner) {
-        const Aabb<D>& found = box(partner);
-        return are_solid(slot, partner) && (!widened_ || overlaps(box(slot), found)) ? &found : nullptr;
+bool World<D>::needs_filter(std::uint32_t slot) {
+    return has_neighbours(slot) && !is_center_covered(slot);
+}
+
+/// Whether the AABB of a partner other than this one overlaps a box. It needs no list of neighbours.
+template <int D>
+bool World<D>::has_partner_in(const Aabb<D>& near, std::uint32_t slot, std::uint32_t other) const {
+    const Aabb<D>* const other_box = &box(other);
+    for (const BoxIndex partner : edges_->partners_of(slot)) {
+        const Aabb<D>& found = (partner.is_fixed() ? fixed_ : moving_).box(partner.place());
+        bool overlap = &found != other_box;
+        for (int i = 0; i < D; ++i) overlap &= (found.min[i] <= near.max[i]) & (found.max[i] >= near.min[i]);
+        if (overlap) return true;
+    }
+    return false;
+}
+
+/// Whether the item in `slot` needs the surface of its neighbours for a contact with another item: there is one near
+/// each of the deepest points. `side` is 1 if the item is A, and -1 if it is B.
+template <int D>
+bool World<D>::needs_filter(std::uint32_t slot, std::uint32_t other, const Contact<D>& contact, float side) {
+    if (edges_->partners_of(slot).size() < 2) return false;
+    const float s = static_cast<float>(surface_probe_scale) *
+                    std::min(items_[slot].local_ball.radius, items_[other].local_ball.radius);
+    // All points are within the smaller item, and so near the first one.
+    constexpr float rounding = 0x1p-21f;
+    float reach = probe_reach * s + rounding * std::abs(contact.depth);
+    for (int i = 0; i < D; ++i) reach += rounding * std::abs(contact.points[0].position[i]);
+    const Vec<D> to_surface = contact.normal * (-0.5f * side);
+    const auto box_near = [&](const ContactPoint<D>& point) -> Aabb<D> {
+        const Vec<D> on_surface = point.position + to_surface * point.depth;
+        return {on_surface - reach, on_surface + reach};
     };
-    if (edges_->find_neighbours(*list, box_of_neighbour) < 2 || list->is_center_covered) return false;
-    return (contact == nullptr || !is_alone(*contact, slot, other, side)) && !is_center_covered(slot);
+    if (!edges_->has_list(slot)) {
+        Aabb<D> near = box_near(contact.points[0]);
+        for (const ContactPoint<D>& point : contact.points) near = merged(near, box_near(point));
+        if (!has_partner_in(near, slot, other)) return false;
+    }
+    if (!has_neighbours(slot)) return false;
+    const auto& list = edges_->list_of(slot);
+    const float min_depth = contact.depth - static_cast<float>(0.5 * deepest_tolerance) * s;
+    const auto is_alone = [&](const ContactPoint<D>& point) {
+        return !(point.depth < min_depth) && !edges_->has_neighbour(list, box_near(point), other);
+    };
+    return std::none_of(contact.points.begin(), contact.points.end(), is_alone) && !is_center_covered(slot);
 }
 
 /// Calls use(neighbours) with what the items in two slots touch beside each other.
@@ -206,7 +240,7 @@ bool World<D>::find_contact(const IdPair& pair) {
 template <int D>
 bool World<D>::find_surface_contacts(const IdPair& pair) {
     const std::uint32_t a = pair.a.index - 1, b = pair.b.index - 1;
-    const bool for_a = needs_filter(a, b, nullptr, 1), for_b = needs_filter(b, a, nullptr, -1);
+    const bool for_a = needs_filter(a), for_b = needs_filter(b);
     const View<D>& placed_a = first_placed(a);
     const View<D> placed_b = placed_view(b);  // a copy: the neighbours may take its place in the cache
     const std::size_t first = found_.size();
@@ -234,8 +268,8 @@ void World<D>::filter_contacts() {
     for (auto& unfiltered : last) {
         const WorldContact<D>& found = found_.contacts[unfiltered.found];
         const std::uint32_t a = found.a.index - 1, b = found.b.index - 1;
-        unfiltered.for_a = needs_filter(a, b, &found.contact, 1);
-        unfiltered.for_b = needs_filter(b, a, &found.contact, -1);
+        unfiltered.for_a = needs_filter(a, b, found.contact, 1);
+        unfiltered.for_b = needs_filter(b, a, found.contact, -1);
     }
     for (const auto& unfiltered : last) {
         if (!unfiltered.for_a && !unfiltered.for_b) continue;
@@ -244,8 +278,8 @@ void World<D>::filter_contacts() {
         const View<D>& placed_a = first_placed(a);
         const View<D> placed_b = placed_view(b);  // a copy: the neighbours may take its place in the cache
         with_neighbours(a, b, unfiltered.for_a, unfiltered.for_b, [&](NeighbourSurfaces<D> neighbours) {
-            if (unfiltered.for_a) neighbours.nearest_to_a = &edges_->nearest_of(*edges_->list_of(a));
-            if (unfiltered.for_b) neighbours.nearest_to_b = &edges_->nearest_of(*edges_->list_of(b));
+            if (unfiltered.for_a) neighbours.nearest_to_a = &edges_->nearest_of(edges_->list_of(a));
+            if (unfiltered.for_b) neighbours.nearest_to_b = &edges_->nearest_of(edges_->list_of(b));
             set_found(unfiltered.found,
                       filtered_contact(placed_a, placed_b, unfiltered.deepest.contact, found.contact, neighbours));
         });
@@ -262,17 +296,6 @@ void World<D>::set_found(std::size_t index, const detail::SurfaceContact<D>& fil
     state.size = static_cast<float>(filtered.size);
     state.reported = static_cast<bool>(filtered.contact);
     if (filtered.own_area) found_.set_own_area(index, {found.a, found.b, filtered.own_area});
-}
-
-/// The range of the contacts of a pair in last_found_.
-template <int D>
-std::pair<std::size_t, std::size_t> World<D>::last_contacts(const IdPair& pair) const {
-    const std::vector<WorldContact<D>>& last = last_found_.contacts;
-    const auto pair_of = [](const WorldContact<D>& found) { return IdPair{found.a, found.b}; };
-    const auto first =
-        std::partition_point(last.begin(), last.end(), [&](const auto& found) { return pair_of(found) < pair; });
-    const auto end = std::find_if(first, last.end(), [&](const auto& found) { return pair_of(found) != pair; });
-    return {static_cast<std::size_t>(first - last.begin()), static_cast<std::size_t>(end - last.begin())};
 }
 
 /// Whether another reported contact of the item covers a contact with a substitute normal, a ghost.
@@ -338,6 +361,8 @@ void World<D>::report_contacts() {
     }
 }
 
+template struct detail::DeleteEdgeFilterState<2>;
+template struct detail::DeleteEdgeFilterState<3>;
 template class World<2>;
 template class World<3>;
 

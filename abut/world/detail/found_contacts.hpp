@@ -5,11 +5,24 @@
 #include <abut/query/detail/surface/surface_normal_flags.hpp>
 #include <abut/world/results.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace abut::detail {
+
+/// The entries of a pair, in any order of its ids, in a list sorted by pairs.
+template <class Entry>
+std::span<const Entry> entries_of(std::span<const Entry> list, const IdPair& pair) {
+    const IdPair wanted{std::min(pair.a, pair.b), std::max(pair.a, pair.b)};
+    const auto pair_of = [](const Entry& entry) { return IdPair{entry.a, entry.b}; };
+    const auto first =
+        std::partition_point(list.begin(), list.end(), [&](const Entry& entry) { return pair_of(entry) < wanted; });
+    const auto end = std::find_if(first, list.end(), [&](const Entry& entry) { return pair_of(entry) != wanted; });
+    return {first, end};
+}
 
 /// What else is known of a contact of a touching pair.
 struct FoundState {

@@ -46,16 +46,7 @@ std::uint32_t ItemBoxes<D>::add(std::uint32_t slot, double queries) {
 }
 
 template <int D>
-void ItemBoxes<D>::set(std::uint32_t place, const Aabb<D>& box) {
-    if (box == boxes_[place]) return;
-    boxes_[place] = box;
-    ++changed_;
-    mark_stale(place);
-}
-
-template <int D>
 void ItemBoxes<D>::mark_stale(std::uint32_t place) {
-    if (is_stale_[place] != 0) return;
     is_stale_[place] = true;
     reserve_one_more(stale_);
     stale_.push_back(place);

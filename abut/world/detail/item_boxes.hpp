@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace abut::detail {
@@ -26,14 +27,23 @@ public:
     /// Returns a new place for the item of this slot, with an empty box. `queries` is their number for each item, see
     /// BroadPhaseHistory.
     std::uint32_t add(std::uint32_t slot, double queries);
-    void set(std::uint32_t place, const Aabb<D>& box);
+    /// Inline: a box that a call passes through memory is read before it is written.
+    void set(std::uint32_t place, const Aabb<D>& box) {
+        Aabb<D>& present = boxes_[place];
+        if (box == present) return;
+        present = box;
+        ++changed_;
+        if (is_stale_[place] == 0) mark_stale(place);
+    }
     const Aabb<D>& box(std::uint32_t place) const { return boxes_[place]; }
+    std::span<const Aabb<D>> boxes() const { return boxes_; }
     /// Gives the next refresh a larger box, so that queries may visit more items until the refresh after it, which
     /// takes the item's own box again.
     void widen(std::uint32_t place, const Aabb<D>& box);
     void remove(std::uint32_t place);
     /// The slot of the item that has this place, or of the last one that had it.
     std::uint32_t slot(std::uint32_t place) const { return slots_[place]; }
+    std::span<const std::uint32_t> slots() const { return slots_; }
     /// The number of places, including free ones.
     std::size_t size() const { return boxes_.size(); }
 
