@@ -23,6 +23,7 @@
 #include <abut/math/predicates.hpp>
 #include <abut/math/ray.hpp>
 #include <abut/math/result.hpp>
+#include <abut/math/thread_pool.hpp>
 #include <abut/math/vec.hpp>
 #include <abut/motion/depenetrate.hpp>
 #include <abut/motion/laser.hpp>

@@ -8,7 +8,8 @@
 
 namespace abut {
 
-/// Runs the parts of a job in parallel. Implement both functions; abut starts no threads of its own.
+/// Runs the parts of a job in parallel. Implement both functions, or use ThreadPool; abut starts no threads but
+/// those of a ThreadPool.
 class Executor {
 public:
     virtual ~Executor() = default;

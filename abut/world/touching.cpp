@@ -24,6 +24,16 @@ std::vector<Id> World<D>::touching(Id id) const {
 }
 
 template <int D>
+void World<D>::visit_contacts_of(Id id, FunctionRef<bool(const WorldContact<D>&)> visit) const {
+    bool go_on = true;
+    visit_touching(id, [&](Id other) {
+        for (const WorldContact<D>& found : entries_of(contacts(), {id, other}))
+            if (go_on = visit(found); !go_on) break;
+        return go_on;
+    });
+}
+
+template <int D>
 Contact<D> World<D>::contact(const IdPair& pair) const {
     const auto found = entries_of(contacts(), pair);
     return found.empty() ? Contact<D>{} : found.front().contact;

@@ -4,6 +4,7 @@
 // queries about all items. It moves nothing by itself.
 
 #include <abut/broad_phase/choose_broad_phase.hpp>
+#include <abut/math/executor.hpp>
 #include <abut/math/motion.hpp>
 #include <abut/math/result.hpp>
 #include <abut/query/raycast.hpp>
@@ -89,6 +90,8 @@ public:
     }
     template <class P, class Why = detail::WhyNoPose<D, P>>
     auto move(Id id, const P& position);
+    /// Moves many items; as many poses as ids.
+    void move(std::span<const Id> ids, std::span<const Pose<D>> poses);
     void set_filter(Id id, std::uint32_t layers, std::uint32_t mask);
     void remove(Id id);
 
@@ -184,6 +187,12 @@ public:
     void each_touching(Id id, F&& visit) const {
         visit_touching(id, detail::bool_visitor(visit));
     }
+    /// Calls visit(contact) for the entries of `contacts` that the item is part of, sorted by the other item's id; it
+    /// returns nothing, or false to stop. The cost is that of `each_touching`, and a binary search for each pair.
+    template <detail::Visitor<const WorldContact<D>&> F>
+    void each_contact_of(Id id, F&& visit) const {
+        visit_contacts_of(id, detail::bool_visitor(visit));
+    }
     /// The deepest contact of a pair at the last update, from the lower id to the higher. It is false if the pair
     /// doesn't touch, has a sensor, touched only during its motion, or if other contacts cover the same surface
     /// (docs/ghosts.md).
@@ -206,6 +215,16 @@ public:
         detail::clear_upper_halves();
         return all_hits(ray, filter);
     }
+
+    // Many questions in one call. Each answer is that of the question alone, and has a place in the second span; the
+    // threads of an executor share the questions.
+    using Hits = std::span<std::optional<WorldHit<D>>>;
+    void raycast(std::span<const Ray<D>> rays, Hits hits, const Filter& filter = {}) const;
+    void raycast(std::span<const Ray<D>> rays, Hits hits, Executor& executor, const Filter& filter = {}) const;
+    using ClosestItems = std::span<std::optional<WorldClosest<D>>>;
+    void closest(std::span<const Vec<D>> points, ClosestItems items, const Filter& filter = {}) const;
+    void closest(std::span<const Vec<D>> points, ClosestItems items, Executor& executor,
+                 const Filter& filter = {}) const;
 
     /// The first hit of a linear motion, as abut::sweep defines it; among equally early hits, the one with the lowest
     /// id. An item that the shape touches at the start is hit only if the motion goes further in.
@@ -369,6 +388,7 @@ private:
     const View<D>& first_placed(std::uint32_t slot);
     void visit_items(FunctionRef<bool(Id)> visit) const;
     void visit_touching(Id id, FunctionRef<bool(Id)> visit) const;
+    void visit_contacts_of(Id id, FunctionRef<bool(const WorldContact<D>&)> visit) const;
     void update_box(std::uint32_t slot);
     void mark_pending(std::uint32_t slot);
     bool passes(std::uint32_t slot, const Filter& filter) const;

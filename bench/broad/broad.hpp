@@ -36,6 +36,8 @@ std::vector<Bench> temporal_benches();
 std::vector<Bench> world_benches();
 /// The cost of the filter of internal edges.
 std::vector<Bench> world_edge_benches();
+/// Many rays into a World in one call.
+std::vector<Bench> world_batch_benches();
 /// The cost of changes to a World, and of queries after them.
 std::vector<Bench> world_change_benches();
 /// The cost of changes to a World with a query after each.

@@ -51,6 +51,19 @@ TYPED_TEST(Touching, IsAsOfTheLastUpdateAndSorted) {
     });
     EXPECT_EQ(some, (Ids{left, sensor}));
 
+    // The pair with the sensor has no contact.
+    Ids with_contact;
+    this->world.each_contact_of(middle, [&](const auto& found) {
+        EXPECT_TRUE(found.a == middle || found.b == middle);
+        EXPECT_EQ(found.contact.depth, this->world.contact({found.a, found.b}).depth);
+        with_contact.push_back(found.a == middle ? found.b : found.a);
+    });
+    EXPECT_EQ(with_contact, (Ids{left, right}));
+    int visits = 0;
+    this->world.each_contact_of(middle, [&](const auto&) { return ++visits < 1; });
+    EXPECT_EQ(visits, 1);
+    this->world.each_contact_of(far, [&](const auto&) { ADD_FAILURE(); });
+
     this->world.move(left, this->place(9));
     EXPECT_EQ(this->world.touching(middle), (Ids{left, sensor, right}));
     this->world.remove(sensor);

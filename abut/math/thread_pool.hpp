@@ -1,0 +1,28 @@
+#pragma once
+
+// An Executor with threads of its own, for programs without a job system.
+
+#include <abut/math/executor.hpp>
+
+#include <cstdint>
+#include <memory>
+
+namespace abut {
+
+/// Runs the parts of a job on its threads and on the one that calls `run`. Calls of `run` from several threads take
+/// turns; within a part, `run` calls its parts in order, on the same thread. No part may throw.
+class ThreadPool final : public Executor {
+public:
+    /// With this many workers, the calling thread included; by default as many as the machine runs at the same time.
+    explicit ThreadPool(std::uint32_t workers = 0);
+    ~ThreadPool() override;
+
+    std::uint32_t workers() const override;
+    void run(std::uint32_t count, FunctionRef<void(std::uint32_t)> part) override;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace abut

@@ -1,0 +1,67 @@
+// The threads of a ThreadPool: each part runs once, whoever calls, and a call returns when all its parts have.
+
+#include <abut/math/thread_pool.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <numeric>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace abut::test {
+namespace {
+
+TEST(ThreadPool, RunsEachPartOnce) {
+    for (const std::uint32_t workers : {1u, 2u, 3u, 8u}) {
+        ThreadPool pool(workers);
+        EXPECT_EQ(pool.workers(), workers);
+        for (std::uint32_t count = 0; count < 200; ++count) {
+            std::vector<int> runs(count, 0);
+            pool.run(count, [&](std::uint32_t i) { ++runs[i]; });
+            EXPECT_EQ(std::count(runs.begin(), runs.end(), 1), static_cast<std::ptrdiff_t>(count));
+        }
+    }
+    EXPECT_GE(ThreadPool().workers(), 1u);
+}
+
+TEST(ThreadPool, RunsPartsAtTheSameTime) {
+    ThreadPool pool(2);
+    std::atomic<int> arrived = 0;
+    // Each of the two parts waits for the other one.
+    pool.run(2, [&](std::uint32_t) {
+        ++arrived;
+        while (arrived < 2) std::this_thread::yield();
+    });
+    EXPECT_EQ(arrived, 2);
+}
+
+TEST(ThreadPool, APartMayRunAJob) {
+    ThreadPool pool(3), other(2);
+    std::atomic<std::uint32_t> sum = 0;
+    pool.run(10, [&](std::uint32_t i) {
+        pool.run(10, [&](std::uint32_t j) { sum += 10 * i + j; });
+        other.run(2, [&](std::uint32_t) { ++sum; });
+    });
+    EXPECT_EQ(sum, 99u * 100 / 2 + 20);
+}
+
+TEST(ThreadPool, ManyThreadsMayRunJobs) {
+    ThreadPool pool(2);
+    std::vector<std::uint64_t> sums(4);
+    std::vector<std::thread> callers;
+    for (std::uint64_t& sum : sums)
+        callers.emplace_back([&] {
+            for (int job = 0; job < 200; ++job) {
+                std::vector<std::uint32_t> parts(7);
+                pool.run(7, [&](std::uint32_t i) { parts[i] = i; });
+                sum += std::accumulate(parts.begin(), parts.end(), 0u);
+            }
+        });
+    for (std::thread& caller : callers) caller.join();
+    EXPECT_EQ(sums, std::vector<std::uint64_t>(4, 200u * 21));
+}
+
+}  // namespace
+}  // namespace abut::test
