@@ -28,9 +28,9 @@ inline PairAnswer closest_of_points(const PlacedPolygon& a, const PlacedPolygon&
                                     ClosestFeatures2& closest) {
     const std::uint32_t of = b.is_point() ? 0 : 1;
     const PlacedPolygon &shape = of == 0 ? a : b, &point = of == 0 ? b : a;
-    return with_core(shape, point.place.position, point.radius, [&](const auto& core, const RoundPoint& round) {
+    return with_core(shape, point.place.position, [&](const auto& core, const ScaledPoint& local) {
         PointFeatures2 found;
-        const PairAnswer answer = closest_to_point(core, round, reach, found);
+        const PairAnswer answer = closest_to_point(core, {point.place.position, point.radius, local}, reach, found);
         if (answer != PairAnswer::yes) return answer;
         closest.of = of;
         closest.set_corners(core.number(found.first), core.number(found.second), 0);

@@ -40,7 +40,7 @@ inline Rigid2 rigid(const LanePose& pose) {
 struct ScaledTurn {
     Double2 turn, scale;
 
-    explicit ScaledTurn(const Turn& given) : turn(lanes::loaded(&given.cos)) {
+    [[gnu::always_inline]] explicit ScaledTurn(const Turn& given) : turn(lanes::loaded(&given.cos)) {
         const Double2 squares = lanes::dot(turn, turn);
         scale = lanes::inverse_root(squares);
         if (!lanes::is_near_one(squares[0])) *this = normalised(turn);

@@ -122,7 +122,8 @@ inline Double2 with_signs_of(Double2 v, Double2 signs) {
     const lanes::Mask2 magnitudes = lanes::Mask2{0, 0} + 0x7fffffffffffffff;
     return lanes::select(magnitudes, v, signs);
 }
-inline bool locate(const BoxCore& core, const ScaledPoint& local, double reach, PointLocation& place) {
+[[gnu::always_inline]] inline bool locate(const BoxCore& core, const ScaledPoint& local, double reach,
+                                          PointLocation& place) {
     using namespace lanes;
     const Double2 point = local.point();
     const Double2 beyond = magnitude(point) - core.half(), outside = greater(beyond, Double2{0, 0});
@@ -147,6 +148,11 @@ inline bool locate(const BoxCore& core, const ScaledPoint& local, double reach, 
 
 inline bool is_finite(double number) {
     return std::abs(number) < std::numeric_limits<double>::infinity();
+}
+
+/// Whether the root of a square is certain to be above `reach`: roots are slow. False for infinity and NaN.
+inline bool is_beyond(double square, double reach) {
+    return square > reach * reach * (1 + 0x1p-50) && square <= std::numeric_limits<double>::max();
 }
 
 /// The closest features of a core and a point, or those of the minimum penetration, in the world.
@@ -195,11 +201,12 @@ template <class Core>
     closest.second = found.second;
     return PairAnswer::yes;
 }
-inline PairAnswer closest_to_point(const PointCore& core, const RoundPoint& point, double reach,
-                                   PointFeatures2& closest) {
-    const Double2 between = point.center - core.place().position, square = lanes::dot(between, between),
-                  gap = lanes::root(square);
+[[gnu::always_inline]] inline PairAnswer closest_to_point(const PointCore& core, const RoundPoint& point, double reach,
+                                                          PointFeatures2& closest) {
+    const Double2 between = point.center - core.place().position, square = lanes::dot(between, between);
     const double balls = core.radius() + point.radius;
+    if (is_beyond(square[0], reach + balls)) return PairAnswer::no;
+    const Double2 gap = lanes::root(square);
     if (!(gap[0] > 0 && is_finite(gap[0] + balls))) return PairAnswer::unknown;
     closest.gap = gap[0];
     closest.normal = between * (gap * (Double2{1, 1} / square));
@@ -207,17 +214,21 @@ inline PairAnswer closest_to_point(const PointCore& core, const RoundPoint& poin
     return gap[0] > reach + balls ? PairAnswer::no : PairAnswer::yes;
 }
 
-/// Calls query(core, point) with the shape's core.
+/// A point in the frame of a shape.
+inline ScaledPoint seen_from(const PlacedPolygon& shape, Double2 point) {
+    return {shape.place.back(point - shape.place.position), lanes::double2(1)};
+}
+
+/// Calls query(core, the point in the core's frame) with the shape's core.
 template <class Query>
-inline PairAnswer with_core(const PlacedPolygon& shape, Double2 center, double radius, const Query& query) {
-    const RoundPoint point{center, radius, {shape.place.back(center - shape.place.position), lanes::double2(1)}};
+[[gnu::always_inline]] inline PairAnswer with_core(const PlacedPolygon& shape, Double2 point, const Query& query) {
     switch (shape.core) {
         case PlacedPolygon::Core::point:
-            return query(PointCore(shape), point);
+            return query(PointCore(shape), ScaledPoint{});
         case PlacedPolygon::Core::box:
-            return query(BoxCore(shape), point);
+            return query(BoxCore(shape), seen_from(shape, point));
         default:
-            return query(PolygonCore(shape), point);
+            return query(PolygonCore(shape), seen_from(shape, point));
     }
 }
 

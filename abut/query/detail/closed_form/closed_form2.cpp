@@ -16,97 +16,77 @@ struct PolygonsOfShapes {
         : known(set_placed_polygon(first, a) && set_placed_polygon(second, b)) {}
 };
 
-/// Which of A and B is the shape and which the circle.
-struct PairOrder {
-    std::uint32_t of;  ///< of the shape. 0: A; 1: B
-
-    /// From A to B, from the normal out of the shape.
-    Double2 from_a(Double2 out) const {
-        static constexpr double towards_b[2] = {1, -1};
-        return out * lanes::double2(towards_b[of]);
-    }
+/// A circle and another shape, which may be a circle as well. The shape is A if `of` is 0, and B if it is 1.
+template <std::uint32_t of>
+struct CircleAndShape {
     template <class T>
-    T& of_shape(T& of_a, T& of_b) const {
+    static T& of_shape(T& of_a, T& of_b) {
         return of == 0 ? of_a : of_b;
     }
     template <class T>
-    T& of_circle(T& of_a, T& of_b) const {
+    static T& of_circle(T& of_a, T& of_b) {
         return of == 0 ? of_b : of_a;
     }
-    std::uint32_t contact_feature(std::uint32_t corner_name) const { return corner_name << 8 * (1 - of); }
+    /// From A to B, from the normal out of the shape.
+    static Double2 from_a(Double2 out) { return of == 0 ? out : -out; }
+    static std::uint32_t contact_feature(std::uint32_t corner_name) { return corner_name << 8 * (1 - of); }
     template <class Core, class Answer>
-    void name_features(const Core& core, const PointFeatures2& found, Answer& answer) const {
+    static void name_features(const Core& core, const PointFeatures2& found, Answer& answer) {
         name_end_or_edge(core.number(found.first), core.number(found.second), 0,
                          of_shape(answer.feature_a, answer.feature_b));
         of_circle(answer.feature_a, answer.feature_b).kind = FeatureKind::vertex;
     }
+
+    /// Calls writer.write(*this, core, point, closest features) if the distance is at most `reach`. `kind` is that of
+    /// the shape.
+    template <ShapeKind kind, class Writer>
+    [[gnu::always_inline]] static PairAnswer closest(const ShapeRef<2>& a, const ShapeRef<2>& b, double reach,
+                                                     const Writer& writer) {
+        const ShapeRef<2>& circle = of_circle(a, b);
+        const Double2 center = placed_center(circle);
+        const double radius = static_cast<double>(circle.as<Circle>().radius);
+        const auto query = [&](const auto& core, const ScaledPoint& local) __attribute__((always_inline)) {
+            const RoundPoint point{center, radius, local};
+            PointFeatures2 found;
+            const PairAnswer answer = closest_to_point(core, point, reach, found);
+            if (answer == PairAnswer::yes) writer.write(CircleAndShape(), core, point, found);
+            return answer;
+        };
+        return with_core<kind>(of_shape(a, b), center, query);
+    }
 };
 
-/// A circle and another shape, which may be a circle as well.
-class CircleAndShape {
-public:
-    CircleAndShape(const ShapeRef<2>& a, const ShapeRef<2>& b)
-        : of_(b.kind == ShapeKind::ball ? 0 : 1), shape_(of_ == 0 ? a : b), circle_(of_ == 0 ? b : a) {}
-
-    static bool exists(const ShapeRef<2>& a, const ShapeRef<2>& b) {
-        return a.kind == ShapeKind::ball || b.kind == ShapeKind::ball;
-    }
-
-    /// Calls writer.write(order, core, point, closest features) if the distance is at most `reach`.
-    template <class Writer>
-    [[gnu::always_inline]] PairAnswer closest(double reach, const Writer& writer) const {
-        const Circle& circle = circle_.as<Circle>();
-        Double2 center = lanes::loaded(&circle.center.x);
-        if (circle_.pose != nullptr) center = lane_pose(*circle_.pose).point(center);
-        const double radius = static_cast<double>(circle.radius);
-        if (shape_.kind != ShapeKind::polytope) return closest_of_other(shape_, of_, center, radius, reach, writer);
-        const Polygon& own = shape_.as<Polygon>();
-        if (own.sides() == nullptr) return PairAnswer::unknown;
-        const Pose2& pose = pose_or_none(shape_.pose);
-        const ScaledTurn turn(pose.rotation);
-        PlacedPolygon polygon;
-        polygon.radius = 0;
-        polygon.place.position = lanes::loaded(&pose.position.x);
-        polygon.place.set_turn(turn.turn);
-        const Double2 local = polygon.place.back(center - polygon.place.position);
-        polygon.place.set_turn(turn.unit_turn());
-        polygon.set_rows(own.sides(), own.side_count());
-        return closest_to(ListedCore(polygon), {center, radius, {local, turn.scale}}, of_, reach, writer);
-    }
-
-private:
-    template <class Core, class Writer>
-    [[gnu::always_inline]] static PairAnswer closest_to(const Core& core, const RoundPoint& point, std::uint32_t of,
-                                                        double reach, const Writer& writer) {
-        PointFeatures2 found;
-        const PairAnswer answer = closest_to_point(core, point, reach, found);
-        if (answer == PairAnswer::yes) writer.write(PairOrder{of}, core, point, found);
-        return answer;
-    }
-    template <class Writer>
-    [[gnu::noinline]] static PairAnswer closest_of_other(const ShapeRef<2>& given, std::uint32_t of, Double2 center,
-                                                         double radius, double reach, Writer writer) {
-        PlacedPolygon shape;
-        if (!set_placed_polygon(given, shape)) return PairAnswer::unknown;
-        return with_core(shape, center, radius, [&](const auto& core, const RoundPoint& point) {
-            return closest_to(core, point, of, reach, writer);
-        });
-    }
-
-    std::uint32_t of_;
-    const ShapeRef<2>&shape_, &circle_;
-};
+/// If one of the shapes is a circle, calls query<of, kind>() with the kind of the other. `triangle` stands for the rare
+/// kinds.
+template <class Query, class Otherwise>
+[[gnu::always_inline]] inline auto with_circle(const ShapeRef<2>& a, const ShapeRef<2>& b, const Query& query,
+                                               const Otherwise& otherwise) {
+    using enum ShapeKind;
+    const auto with_kind = [&]<std::uint32_t of>(ShapeKind kind) __attribute__((always_inline)) {
+        switch (kind) {
+            case polytope:
+                return query.template operator()<of, polytope>();
+            case box:
+                return query.template operator()<of, box>();
+            default:
+                return query.template operator()<of, triangle>();
+        }
+    };
+    if (b.kind == ball)
+        return a.kind == ball ? query.template operator()<0, ball>() : with_kind.template operator()<0>(a.kind);
+    return a.kind == ball ? with_kind.template operator()<1>(b.kind) : otherwise();
+}
 
 struct OverlapWriter {
-    template <class Core>
-    void write(const PairOrder&, const Core&, const RoundPoint&, const PointFeatures2&) const {}
+    template <class Order, class Core>
+    void write(Order, const Core&, const RoundPoint&, const PointFeatures2&) const {}
 };
 
 struct ClosestWriter {
     Closest<2>& result;
 
-    template <class Core>
-    [[gnu::always_inline]] void write(const PairOrder& order, const Core& core, const RoundPoint& point,
+    template <class Order, class Core>
+    [[gnu::always_inline]] void write(Order order, const Core& core, const RoundPoint& point,
                                       const PointFeatures2& found) const {
         result.distance = static_cast<float>(found.gap - core.radius() - point.radius);
         lanes::store(order.from_a(found.normal), &result.normal.x);
@@ -121,8 +101,8 @@ struct ClosestWriter {
 struct ContactWriter {
     Contact<2>& result;
 
-    template <class Core>
-    [[gnu::always_inline]] void write(const PairOrder& order, const Core& core, const RoundPoint& point,
+    template <class Order, class Core>
+    [[gnu::always_inline]] void write(Order order, const Core& core, const RoundPoint& point,
                                       const PointFeatures2& found) const {
         const double depth = core.radius() + point.radius - found.gap;
         const Double2 position = found.midway(point.center, point.radius, depth);
@@ -144,10 +124,15 @@ void name_features(const ClosestFeatures2& closest, Answer& answer) {
 }  // namespace
 
 PairAnswer closed_form_overlap(const ShapeRef<2>& a, const ShapeRef<2>& b, Cache* cache) {
-    if (CircleAndShape::exists(a, b)) return CircleAndShape(a, b).closest(0, OverlapWriter());
-    PolygonsOfShapes polygons(a, b);
-    if (!polygons.known) return PairAnswer::unknown;
-    return pair2_within(polygons.a, polygons.b, 0, cache);
+    return with_circle(
+        a, b,
+        [&]<std::uint32_t of, ShapeKind kind>() {
+            return CircleAndShape<of>::template closest<kind>(a, b, 0, OverlapWriter());
+        },
+        [&] {
+            PolygonsOfShapes polygons(a, b);
+            return polygons.known ? pair2_within(polygons.a, polygons.b, 0, cache) : PairAnswer::unknown;
+        });
 }
 
 }  // namespace abut::detail
@@ -158,65 +143,48 @@ using namespace detail;
 
 namespace {
 
-// Out of line, to keep the fast path small.
+/// The closest points of two shapes, as a question.
+struct ClosestQuestion {
+    using Answer = Closest<2>;
+    using Writer = ClosestWriter;
 
-[[gnu::noinline]] void closest_of_views(const ShapeRef<2>& a, const ShapeRef<2>& b, const QueryOptions<2>& options,
-                                        Closest<2>& result) {
-    result = closest(convex_of(a), convex_of(b), options);
-}
-[[gnu::noinline]] void contact_of_views(const ShapeRef<2>& a, const ShapeRef<2>& b, const QueryOptions<2>& options,
-                                        Contact<2>& result) {
-    result = contact(convex_of(a), convex_of(b), options);
-}
-
-// The results are written in place: a copy right after the writes would stall. Each kind of pair has a function of its
-// own, so that each saves only its own registers.
-
-[[gnu::noinline]] Closest<2> closest_of_circle(const ShapeRef<2>& a, const ShapeRef<2>& b,
-                                               const QueryOptions<2>& options) {
-    Closest<2> result;
-    const PairAnswer answer =
-        CircleAndShape(a, b).closest(std::numeric_limits<double>::infinity(), ClosestWriter{result});
-    if (answer == PairAnswer::unknown) closest_of_views(a, b, options, result);
-    return result;
-}
-[[gnu::noinline]] Contact<2> contact_of_circle(const ShapeRef<2>& a, const ShapeRef<2>& b,
-                                               const QueryOptions<2>& options) {
-    Contact<2> result = no_contact<2>();
-    const PairAnswer answer = CircleAndShape(a, b).closest(static_cast<double>(options.margin), ContactWriter{result});
-    if (answer == PairAnswer::unknown) contact_of_views(a, b, options, result);
-    return result;
-}
-[[gnu::noinline]] Closest<2> closest_of_cores(const ShapeRef<2>& a, const ShapeRef<2>& b,
-                                              const QueryOptions<2>& options) {
-    Closest<2> result;
-    PolygonsOfShapes polygons(a, b);
-    ClosestFeatures2 found;
-    if (options.trace == nullptr && polygons.known &&
-        pair2_closest(polygons.a, polygons.b, options.cache, found) != PairAnswer::unknown) {
+    static Answer none() { return {}; }
+    static double reach(const QueryOptions<2>&) { return std::numeric_limits<double>::infinity(); }
+    // Out of line, to keep the fast path small.
+    [[gnu::noinline]] static void of_views(const ShapeRef<2>& a, const ShapeRef<2>& b, const QueryOptions<2>& options,
+                                           Answer& result) {
+        result = closest(convex_of(a), convex_of(b), options);
+    }
+    static PairAnswer of_polygons(PolygonsOfShapes& polygons, const QueryOptions<2>& options, Answer& result) {
+        ClosestFeatures2 found;
+        const PairAnswer answer = pair2_closest(polygons.a, polygons.b, options.cache, found);
+        if (answer == PairAnswer::unknown) return answer;
         const Double2 out = found.from_a();
         result.distance = static_cast<float>(found.gap - polygons.a.radius - polygons.b.radius);
         lanes::store(out, &result.normal.x);
         lanes::store(found.on_a() + out * lanes::double2(polygons.a.radius), &result.on_a.x);
         lanes::store(found.on_b() - out * lanes::double2(polygons.b.radius), &result.on_b.x);
         name_features(found, result);
-    } else {
-        closest_of_views(a, b, options, result);
+        return answer;
     }
-    return result;
-}
-[[gnu::noinline]] Contact<2> contact_of_cores(const ShapeRef<2>& a, const ShapeRef<2>& b,
-                                              const QueryOptions<2>& options) {
-    Contact<2> result = no_contact<2>();
-    PolygonsOfShapes polygons(a, b);
-    ClosestFeatures2 found;
-    ContactLanes points;
-    const double margin = static_cast<double>(options.margin);
-    const PairAnswer answer = options.trace != nullptr || !polygons.known
-                                  ? PairAnswer::unknown
-                                  : pair2_contact(polygons.a, polygons.b, margin, margin, options.cache, found, points);
-    if (answer == PairAnswer::unknown) contact_of_views(a, b, options, result);
-    if (answer == PairAnswer::yes) {
+};
+
+struct ContactQuestion {
+    using Answer = Contact<2>;
+    using Writer = ContactWriter;
+
+    static Answer none() { return no_contact<2>(); }
+    static double reach(const QueryOptions<2>& options) { return static_cast<double>(options.margin); }
+    [[gnu::noinline]] static void of_views(const ShapeRef<2>& a, const ShapeRef<2>& b, const QueryOptions<2>& options,
+                                           Answer& result) {
+        result = contact(convex_of(a), convex_of(b), options);
+    }
+    static PairAnswer of_polygons(PolygonsOfShapes& polygons, const QueryOptions<2>& options, Answer& result) {
+        ClosestFeatures2 found;
+        ContactLanes points;
+        const double margin = reach(options);
+        const PairAnswer answer = pair2_contact(polygons.a, polygons.b, margin, margin, options.cache, found, points);
+        if (answer != PairAnswer::yes) return answer;
         lanes::store(found.from_a(), &result.normal.x);
         result.depth = static_cast<float>(polygons.a.radius + polygons.b.radius - found.gap);
         for (std::uint32_t i = 0; i < 2; ++i)
@@ -225,22 +193,51 @@ namespace {
                                          static_cast<float>(points.depth[i]),
                                          points.features[i]});
         name_features(found, result);
+        return answer;
     }
+};
+
+// The results are written in place: a copy right after the writes would stall. Each kind of pair has a function of its
+// own, so that each saves only its own registers.
+
+template <class Question, std::uint32_t of, ShapeKind kind>
+[[gnu::noinline]] typename Question::Answer answer_of_circle(const ShapeRef<2>& a, const ShapeRef<2>& b,
+                                                             const QueryOptions<2>& options) {
+    typename Question::Answer result = Question::none();
+    const PairAnswer answer =
+        CircleAndShape<of>::template closest<kind>(a, b, Question::reach(options), typename Question::Writer{result});
+    if (answer == PairAnswer::unknown) Question::of_views(a, b, options, result);
     return result;
+}
+template <class Question>
+[[gnu::noinline]] typename Question::Answer answer_of_cores(const ShapeRef<2>& a, const ShapeRef<2>& b,
+                                                            const QueryOptions<2>& options) {
+    typename Question::Answer result = Question::none();
+    PolygonsOfShapes polygons(a, b);
+    if (options.trace != nullptr || !polygons.known ||
+        Question::of_polygons(polygons, options, result) == PairAnswer::unknown)
+        Question::of_views(a, b, options, result);
+    return result;
+}
+template <class Question>
+typename Question::Answer answer_of(const ShapeRef<2>& a, const ShapeRef<2>& b, const QueryOptions<2>& options) {
+    const auto of_cores = [&] { return answer_of_cores<Question>(a, b, options); };
+    if (options.trace != nullptr) return of_cores();
+    return with_circle(
+        a, b, [&]<std::uint32_t of, ShapeKind kind>() { return answer_of_circle<Question, of, kind>(a, b, options); },
+        of_cores);
 }
 
 }  // namespace
 
 template <>
 Closest<2> closest(const ShapeRef<2>& a, const ShapeRef<2>& b, const QueryOptions<2>& options) {
-    const bool circle = CircleAndShape::exists(a, b) && options.trace == nullptr;
-    return circle ? closest_of_circle(a, b, options) : closest_of_cores(a, b, options);
+    return answer_of<ClosestQuestion>(a, b, options);
 }
 
 template <>
 Contact<2> contact(const ShapeRef<2>& a, const ShapeRef<2>& b, const QueryOptions<2>& options) {
-    const bool circle = CircleAndShape::exists(a, b) && options.trace == nullptr;
-    return circle ? contact_of_circle(a, b, options) : contact_of_cores(a, b, options);
+    return answer_of<ContactQuestion>(a, b, options);
 }
 
 }  // namespace abut
