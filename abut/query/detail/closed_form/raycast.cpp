@@ -3,18 +3,14 @@
 
 #include <abut/convex/ray/closed_forms.hpp>
 #include <abut/math/detail/set_affine.hpp>
-#include <abut/math/simd/double2-inl.h>
+#include <abut/query/detail/closed_form/placed_polygon2.hpp>
 #include <abut/query/raycast.hpp>
-#include <abut/shape/ball.hpp>
-#include <abut/shape/polygon.hpp>
 
 namespace abut {
 
 using namespace detail;
 
 namespace {
-
-using lanes::Double2;
 
 /// A ray starts outside of a ball beyond the radius times this, which allows for rounding.
 constexpr double outside_factor = 1 + 4 * ray_tolerance;
@@ -70,23 +66,21 @@ bool hit_polygon(const Ray<2>& ray, const ShapeRef<2>& given, std::optional<Hit<
     const Double2 scaled_direction = local_direction * lanes::double2(2 - scales[0]);
     const Double2 scaled_x = lanes::first(scaled_direction), scaled_y = lanes::second(scaled_direction);
     std::uint32_t left = 0;
+    Double2 nearest = lanes::double2(std::numeric_limits<double>::infinity());
     const double* numbers = sides.at(0);
     for (std::uint32_t block = 0; block < sides.count; block += soa_lanes, numbers += soa_rows * soa_lanes) {
         for (std::uint32_t i = 0; i < soa_lanes; i += 2) {
             const Double2 x = lanes::aligned_at(numbers + i), y = lanes::aligned_at(numbers + soa_lanes + i);
-            left |= lanes::signs((line + scaled_y * x) - scaled_x * y) << (block + i);
+            const Double2 beside = (line + scaled_y * x) - scaled_x * y;
+            left |= lanes::signs(beside) << (block + i);
+            nearest = lanes::lesser(lanes::magnitude(beside), nearest);
         }
     }
     const std::uint32_t all = (2u << (sides.count - 1)) - 1;
     left &= all;
     // NaN and infinity are never greater than this.
     const double tolerance = ray_tolerance * (std::abs(origin[0]) + std::abs(origin[1]) + sides.size());
-    if (left == 0 || left == all) {
-        double nearest = std::numeric_limits<double>::infinity();
-        for (std::uint32_t i = 0; i < sides.count; ++i)
-            nearest = std::min(nearest, std::abs(scaled_x[0] * sides.y(i) - scaled_y[0] * sides.x(i) - line[0]));
-        return nearest > 2 * tolerance;
-    }
+    if (left == 0 || left == all) return std::min(nearest[0], nearest[1]) > 2 * tolerance;
     const std::uint32_t next = left >> 1 | left << (sides.count - 1), side = lanes::lowest_bit(left & ~next);
     const double x = sides.normal_x(side), y = sides.normal_y(side);
     const double height = (x * origin[0] + y * origin[1]) * scales[0] - sides.offset(side);
@@ -112,14 +106,9 @@ bool hit_polygon(const Ray<2>& ray, const ShapeRef<2>& given, std::optional<Hit<
 bool hit_circle(const Ray<2>& ray, const ShapeRef<2>& given, std::optional<Hit<2>>& result) {
     const Circle& circle = given.as<Circle>();
     const Double2 from = lanes::loaded(&ray.origin.x), direction = lanes::loaded(&ray.direction.x);
-    Double2 middle = lanes::loaded(&circle.center.x);
-    if (given.pose != nullptr) {
-        const DVec<2> point = placed<2>(DVec<2>(circle.center), *given.pose);
-        middle = lanes::double2(point.x, point.y);
-    }
     const Double2 squares = lanes::dot(direction, direction), scale = lanes::approximate_inverse_root(squares);
     // Along the ray, and across it.
-    const Double2 center = middle - from;
+    const Double2 center = placed_center(given) - from;
     const Double2 parts =
         (lanes::first(direction) * center * Double2{1, -1} + lanes::second(direction) * lanes::swapped(center)) * scale;
     const double radius = static_cast<double>(circle.radius), length = static_cast<double>(ray.length);

@@ -227,19 +227,12 @@ PairAnswer sweep_cores(const PlacedPolygon& polygon_a, const PlacedPolygon& poly
     return EdgeImpact<Core>(pair, motions, passage, relative).report(result);
 }
 
-inline Double2 center_of(const ShapeRef<2>& given) {
-    const Circle& circle = given.as<Circle>();
-    if (given.pose == nullptr) return lanes::loaded(&circle.center.x);
-    const DVec<2> center = placed<2>(DVec<2>(circle.center), *given.pose);
-    return lanes::double2(center.x, center.y);
-}
-
 PairAnswer sweep_circles(const ShapeRef<2>& given_a, const Vec2& motion_a, const ShapeRef<2>& given_b,
                          const Vec2& motion_b, std::optional<Hit<2>>& result) {
     const double radius_a = static_cast<double>(given_a.as<Circle>().radius),
                  radius_b = static_cast<double>(given_b.as<Circle>().radius);
-    const Double2 center = center_of(given_a), moves_a = lanes::loaded(&motion_a.x);
-    const Double2 between = center_of(given_b) - center;
+    const Double2 center = placed_center(given_a), moves_a = lanes::loaded(&motion_a.x);
+    const Double2 between = placed_center(given_b) - center;
     const double far = 2 * (std::abs(between[0]) + std::abs(between[1]) + std::abs(radius_a + radius_b));
     RelativeMotion relative;
     relative.motion = moves_a - lanes::loaded(&motion_b.x);
