@@ -85,17 +85,16 @@ template <class Core>
 template <class Core>
 [[gnu::noinline]] void clip_facing_edges(const CorePair<Core>& pair, const ClosestFeatures2& closest,
                                          const ContactRange& range, ContactLanes& points) {
-    const Core &a = pair.shape(0), &b = pair.shape(1);
-    const Double2 out = closest.from_a(), out_of_a = a.place().back(out), out_of_b = -b.place().back(out);
-    const FacingEdge of_a = a.facing(closest.corners[0][0], out_of_a), of_b = b.facing(closest.corners[1][0], out_of_b);
+    const Double2 out = closest.from_a();
+    const Double2 outwards[2] = {pair.shape(0).place().back(out), -pair.shape(1).place().back(out)};
+    const FacingEdge edges[2] = {pair.shape(0).facing(closest.corners[0][0], outwards[0]),
+                                 pair.shape(1).facing(closest.corners[1][0], outwards[1])};
+    const std::uint32_t of = edges[0].alignment >= aligned ? 0 : 1, side = edges[of].side;
     points.mask = 0;
-    if (!(std::max(of_a.alignment, of_b.alignment) >= aligned)) return;
-    if (of_a.alignment >= aligned)
-        clip_edges(a, b, pair.seen_from(0), of_a.side, of_b.side, out_of_a,
-                   1 / lanes::dot(a.normal(of_a.side), out_of_a)[0], range, points);
-    else
-        clip_edges(b, a, pair.seen_from(1), of_b.side, of_a.side, out_of_b,
-                   1 / lanes::dot(b.normal(of_b.side), out_of_b)[0], range, points);
+    if (!(edges[of].alignment >= aligned)) return;
+    const Core& reference = pair.shape(of);
+    clip_edges(reference, pair.shape(1 - of), pair.seen_from(of), side, edges[1 - of].side, outwards[of],
+               1 / lanes::dot(reference.normal(side), outwards[of])[0], range, points);
 }
 
 /// From the closest features, whose corners have the numbers of `PolygonSoa`.

@@ -66,42 +66,38 @@ public:
     }
 
     /// The closest features, if the gap between the cores is at most `reach`.
-    [[gnu::always_inline]] inline PairAnswer find_closest(double reach, Cache* cache, ClosestFeatures2& closest) {
-        const bool all = !is_finite(reach);
+    [[gnu::always_inline]] PairAnswer find_closest(double reach, Cache* cache, ClosestFeatures2& closest) {
+        return find<false>(reach, cache, closest);
+    }
+    /// Whether the gap between the cores is at most `reach`.
+    [[gnu::always_inline]] PairAnswer within(double reach, Cache* cache) {
+        ClosestFeatures2 closest;
+        return find<true>(reach, cache, closest);
+    }
+
+private:
+    template <bool only_within>
+    [[gnu::always_inline]] inline PairAnswer find(double reach, Cache* cache, ClosestFeatures2& closest) {
+        const bool all = !only_within && !is_finite(reach);
         if (cache != nullptr && (all ? closest_from_cache(*cache, closest) : separated_by_cache(*cache, reach)))
             return all ? PairAnswer::yes : PairAnswer::no;
         const double magnitude = scale();
         if (!is_finite(magnitude)) return PairAnswer::unknown;
+        if constexpr (only_within) {
+            // Bounding circles around the positions.
+            const double far = reach + shapes_[0].outer_radius() + shapes_[1].outer_radius();
+            if (lanes::dot(between_, between_)[0] > far * far) return PairAnswer::no;
+        }
         set_relative_places();
         EdgeGap widest;
         find_widest_gap(shapes_[0], shapes_[1], seen_, reach, 1e-14 * magnitude, widest);
-        if (widest.gap > reach) {
+        const bool overlaps = only_within && widest.gap <= 0;
+        if (overlaps || widest.gap > reach) {
             if (cache != nullptr) store_edge(widest, *cache);
-            return PairAnswer::no;
+            return overlaps ? PairAnswer::yes : PairAnswer::no;
         }
         return find_from_edge(widest, reach, cache, closest);
     }
-
-    /// Whether the gap between the cores is at most `reach`.
-    [[gnu::always_inline]] inline PairAnswer within(double reach, Cache* cache) {
-        if (cache != nullptr && separated_by_cache(*cache, reach)) return PairAnswer::no;
-        // Bounding circles around the positions.
-        const double far = reach + shapes_[0].outer_radius() + shapes_[1].outer_radius();
-        const double magnitude = scale();
-        if (!is_finite(magnitude)) return PairAnswer::unknown;
-        if (lanes::dot(between_, between_)[0] > far * far) return PairAnswer::no;
-        set_relative_places();
-        EdgeGap widest;
-        find_widest_gap(shapes_[0], shapes_[1], seen_, reach, 1e-14 * magnitude, widest);
-        if (widest.gap <= 0 || widest.gap > reach) {
-            if (cache != nullptr) store_edge(widest, *cache);
-            return widest.gap > 0 ? PairAnswer::no : PairAnswer::yes;
-        }
-        ClosestFeatures2 closest;
-        return find_from_edge(widest, reach, cache, closest);
-    }
-
-private:
     static Double2 from_position(const Core& core, std::uint32_t corner) {
         return core.place().vector(core.corner(corner));
     }

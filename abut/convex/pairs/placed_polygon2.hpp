@@ -53,10 +53,10 @@ private:
 };
 
 /// The cosine and sine of a turn, normalised like `unit(turn)`.
-inline Double2 unit_turn(const Turn& turn) {
+[[gnu::always_inline]] inline Double2 unit_turn(const Turn& turn) {
     return ScaledTurn(turn).unit_turn();
 }
-inline LanePose lane_pose(const Pose2& pose) {
+[[gnu::always_inline]] inline LanePose lane_pose(const Pose2& pose) {
     LanePose result;
     result.position = lanes::loaded(&pose.position.x);
     result.set_turn(unit_turn(pose.rotation));
