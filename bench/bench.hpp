@@ -56,6 +56,8 @@ std::vector<Bench> motion_rotation_benches();
 std::vector<Bench> ray_benches();
 /// Sweeps of one shape at a mesh.
 std::vector<Bench> mesh_sweep_benches();
+/// Sweeps of one shape at a chain.
+std::vector<Bench> chain_sweep_benches();
 /// Disassembly order.
 std::vector<Bench> removal_benches();
 /// Shapes against the ground of a level.

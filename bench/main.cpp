@@ -40,6 +40,7 @@ std::vector<Bench> all_benches() {
     std::ranges::move(motion_rotation_benches(), std::back_inserter(result));
     std::ranges::move(ray_benches(), std::back_inserter(result));
     std::ranges::move(mesh_sweep_benches(), std::back_inserter(result));
+    std::ranges::move(chain_sweep_benches(), std::back_inserter(result));
     std::ranges::move(removal_benches(), std::back_inserter(result));
     std::ranges::move(level_benches(), std::back_inserter(result));
     std::ranges::move(levels_mover_benches(), std::back_inserter(result));
