@@ -19,7 +19,9 @@ namespace {
 
 std::optional<SignedDistance<3>> form_of(const Convex<3>& a, const Convex<3>& b) {
     SignedDistance<3> result;
-    return closed_form_distance(a, b, result) ? std::optional(result) : std::nullopt;
+    constexpr double unlimited = std::numeric_limits<double>::infinity();
+    const PairAnswer answer = closed_form_distance(a, b, unlimited, nullptr, result);
+    return answer == PairAnswer::yes ? std::optional(result) : std::nullopt;
 }
 
 TEST(ClosedForm, OfABallDeepInABoxIsExact) {

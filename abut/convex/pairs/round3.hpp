@@ -7,6 +7,7 @@
 // overlapping cores by all faces of their Minkowski difference. If rounding prevents the proof, such as for nearly
 // parallel segments that nearly touch, there is no result, and the caller needs a general algorithm.
 
+#include <abut/convex/pairs/pair_answer.hpp>
 #include <abut/convex/pairs/placed_cores.hpp>
 
 namespace abut::detail {
@@ -91,7 +92,9 @@ bool distance_of_any_segments(const PlacedSegment& a, const PlacedSegment& b, Co
 bool is_beyond_a_face(const PlacedBox& box, const PlacedSegment& segment, double within);
 
 bool triangle_point(const Convex<3>& triangle, const Convex<3>& point, SignedDistance<3>& result);
-bool triangle_segment(const Convex<3>& triangle, const Convex<3>& segment, SignedDistance<3>& result);
+/// The answer is `no` if the plane of the triangle proves that the distance is above `reach`, which is at least 0.
+PairAnswer triangle_segment(const Convex<3>& triangle, const Convex<3>& segment, double reach,
+                            SignedDistance<3>& result);
 
 enum class TriangleClosest : std::uint8_t { found, beyond, unknown };
 

@@ -24,6 +24,9 @@ struct SeenTriangle {
         return !(square > min_segment_sine_squared * length_squared(corners[1]) * length_squared(corners[2]));
     }
 
+    /// Whether a point at this height, times |area|, is farther from the plane than `reach`. Rounded outwards, so that
+    /// a point just within reach isn't lost.
+    bool is_beyond(double height, double reach) const { return height * height > reach * reach * square * (1 + 1e-9); }
     /// Whether the projection of a point lies within the triangle.
     bool is_over(const DVec<3>& point) const {
         const double b = dot(area, cross(point, corners[2])), c = dot(area, cross(corners[1], point));
@@ -170,8 +173,7 @@ TriangleClosest closest_point_on_triangle(const Convex<3>& triangle, const DVec<
     if (t.is_thin()) return TriangleClosest::unknown;
     const DVec<3> seen = point - t.origin;
     const double height = dot(t.area, seen), reach = within + triangle.radius;
-    // Rounded outwards, so that a point just within reach isn't lost.
-    if (height * height > reach * reach * t.square * (1 + 1e-9)) return TriangleClosest::beyond;
+    if (t.is_beyond(height, reach)) return TriangleClosest::beyond;
     TrianglePoint place;
     if (nearest_beside(t, seen, place)) {
         distance = length(seen - place.point);
@@ -189,15 +191,17 @@ TriangleClosest closest_point_on_triangle(const Convex<3>& triangle, const DVec<
     return TriangleClosest::found;
 }
 
-bool triangle_segment(const Convex<3>& triangle, const Convex<3>& segment, SignedDistance<3>& result) {
+PairAnswer triangle_segment(const Convex<3>& triangle, const Convex<3>& segment, double reach,
+                            SignedDistance<3>& result) {
     const SeenTriangle t(triangle);
-    if (t.is_thin()) return false;
+    if (t.is_thin()) return PairAnswer::unknown;
     const DVec<3> p = core_corner(segment, 0) - t.origin, q = core_corner(segment, 1) - t.origin, along = q - p;
     const double scale = std::max({largest(t.corners[1]), largest(t.corners[2]), largest(p), largest(q)});
     const double at_p = dot(t.area, p), at_q = dot(t.area, q);
     if ((at_p > 0) == (at_q > 0)) {
         // The point of the segment nearest to the plane is its lower end.
         const std::uint32_t end = std::abs(at_q) < std::abs(at_p) ? 1 : 0;
+        if (t.is_beyond(end == 0 ? at_p : at_q, reach + triangle.radius + segment.radius)) return PairAnswer::no;
         const DVec<3>& lower = end == 0 ? p : q;
         if (t.is_over(lower)) {
             const double one = 1 / std::sqrt(t.square), height = std::abs(end == 0 ? at_p : at_q) * one;
@@ -205,10 +209,10 @@ bool triangle_segment(const Convex<3>& triangle, const Convex<3>& segment, Signe
             const TrianglePoint place{lower - normal * height, {0, 1, 2}};
             name_corners(place, end, end, result.corners);
             set_result(t, triangle, segment, height, normal, place.point, result);
-            return true;
+            return PairAnswer::yes;
         }
     } else if (t.is_over(p + along * (at_p / (at_p - at_q)))) {
-        return deep_in_triangle(t, triangle, segment, p, q, scale, 0, result);
+        return deep_in_triangle(t, triangle, segment, p, q, scale, 0, result) ? PairAnswer::yes : PairAnswer::unknown;
     }
 
     SegmentParameters best{0, 0};
@@ -227,13 +231,14 @@ bool triangle_segment(const Convex<3>& triangle, const Convex<3>& segment, Signe
     const TrianglePoint place = on_edge(t, nearest, (nearest + 1) % 3, best.on_a);
     const DVec<3> between = p + along * best.on_b - place.point;
     const double gap = length(between);
-    if (!(gap > min_round3_gap * scale)) return deep_in_triangle(t, triangle, segment, p, q, scale, gap, result);
+    if (!(gap > min_round3_gap * scale))
+        return deep_in_triangle(t, triangle, segment, p, q, scale, gap, result) ? PairAnswer::yes : PairAnswer::unknown;
     const DVec<3> normal = between * (1 / gap);
     const double proven = std::min(dot(normal, p), dot(normal, q)) - t.support_along(normal);
-    if (!(gap - proven <= round3_tolerance * scale)) return false;
+    if (!(gap - proven <= round3_tolerance * scale)) return PairAnswer::unknown;
     name_corners(place, best.on_b >= 1 ? 1 : 0, best.on_b <= 0 ? 0 : 1, result.corners);
     set_result(t, triangle, segment, gap, normal, place.point, result);
-    return true;
+    return PairAnswer::yes;
 }
 
 }  // namespace abut::detail

@@ -89,10 +89,11 @@ void NearbySurface<D>::each_closest_point_of_others(const PartName& but, const D
 }
 
 template <int D>
-void NearbySurface<D>::find_passed_fronts(const Convex<D>& shape, const Aabb<D>& box) {
+void NearbySurface<D>::find_passed_fronts(const DVec<D>& at, double reach) {
     passed_fronts_.clear();
     if (!parts_.has_one_sided()) return;
-    parts_.each(box, [&](const PartName& name, const Part<D>& part) {
+    const Convex<D> shape = shape_at(at);
+    parts_.each(grown(bounds(shape), static_cast<float>(reach)), [&](const PartName& name, const Part<D>& part) {
         if (!is_one_sided(part)) return;
         const SignedDistance<D> distance = part_distance<D>(shape, part);
         if (!(distance.distance < 0)) return;
@@ -140,12 +141,13 @@ std::span<const NearContact<D>> NearbySurface<D>::contacts(const DVec<D>& at, do
     ghosts_.clear();
     passed_.clear();
     const Convex<D> shape = shape_at(at);
-    const Aabb<D> box = grown(bounds(shape), static_cast<float>(reach));
+    const Aabb<D> own_box = bounds(shape), box = grown(own_box, static_cast<float>(reach));
     gather(box);
-    find_passed_fronts(shape, box);
+    find_passed_fronts(at, reach);
     const auto contact_with = [&](const PartName& name, const Part<D>& part) -> std::optional<NearContact<D>> {
-        const SignedDistance<D> distance = part_distance<D>(shape, part);
-        if (!(distance.distance <= reach) || !touch_at_fronts<D>(shape, part, distance.normal)) return std::nullopt;
+        SignedDistance<D> distance;
+        if (!part_distance_up_to<D>(shape, part, reach, distance) || !touch_at_fronts<D>(shape, part, distance.normal))
+            return std::nullopt;
         if ((shape.one_sided || is_one_sided(part)) && is_on_passed_front(distance.on_b())) return std::nullopt;
         NearContact<D> contact{name, -distance.normal, distance.on_b(), distance.distance, {}, false};
         contact.is_sdf = part.is_function();
@@ -156,7 +158,7 @@ std::span<const NearContact<D>> NearbySurface<D>::contacts(const DVec<D>& at, do
         parts_.each(box, [&](const PartName& name, const Part<D>& part) {
             if (std::optional<NearContact<D>> contact = contact_with(name, part)) passes(part, *contact);
         });
-    const DVec<D> middle = middle_of(shape, at);
+    const DVec<D> middle(center(own_box));
     NearestToCenter<D> seen;
     const auto closest_points = [this](const DVec<D>& point, double within, ClosestPointVisitor<D> visit) {
         each_closest_point(point, within, visit);
@@ -247,7 +249,7 @@ std::optional<FirstTouch<D>> NearbySurface<D>::first_touch(const DVec<D>& at, co
     // A time of impact may be early by the tolerance.
     const Aabb<D> box = grown(merged(first_box, moved_box(first_box, move)), static_cast<float>(1e-4 * size_));
     gather(box);
-    find_passed_fronts(shape_at(at), grown(bounds(shape_at(at)), static_cast<float>(1e-4 * size_)));
+    find_passed_fronts(at, 1e-4 * size_);
     Path<D> path{move / distance, distance};
     if (passes_ != nullptr) {
         passed_.clear();

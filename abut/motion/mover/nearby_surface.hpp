@@ -57,8 +57,8 @@ private:
     void each_closest_point(const DVec<D>& point, double within, ClosestPointVisitor<D> visit) const;
     bool passes(const Part<D>& part, NearContact<D>& contact);
     bool is_passed(const PartName& name) const;
-    /// Finds the one-sided parts that the shape is passing through.
-    void find_passed_fronts(const Convex<D>& shape, const Aabb<D>& box);
+    /// Finds the one-sided parts within `reach` that the shape is passing through.
+    void find_passed_fronts(const DVec<D>& at, double reach);
     bool is_passed_front(const PartName& name) const;
     /// True if a point of a one-sided part is also on a passed front.
     bool is_on_passed_front(const DVec<D>& point) const;

@@ -51,6 +51,12 @@ SignedDistance<2> part_distance(const Convex<2>& a, const Convex<2>& b, const Se
 }
 
 template <>
+bool part_distance_up_to(const Convex<2>& a, const Convex<2>& b, double reach, SignedDistance<2>& result) {
+    result = part_distance(a, b, SearchOptions<2>{});
+    return result.distance <= reach;
+}
+
+template <>
 bool part_distance_within(const Convex<2>& a, const Convex<2>& b, double reach, double margin,
                           const SearchOptions<2>& options, PartContact<2>& contact) {
     PlacedPolygons polygons(a, b);

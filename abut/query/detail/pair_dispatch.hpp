@@ -15,6 +15,11 @@ bool part_overlaps(const Convex<D>& a, const Convex<D>& b, const SearchOptions<D
 template <int D>
 SignedDistance<D> part_distance(const Convex<D>& a, const Convex<D>& b, const SearchOptions<D>& options);
 
+/// Whether the parts are at most `reach` apart, and then their distance, of the same bits as part_distance. Otherwise
+/// `result`, which must be newly constructed, is unspecified.
+template <int D>
+bool part_distance_up_to(const Convex<D>& a, const Convex<D>& b, double reach, SignedDistance<D>& result);
+
 /// The contact of two parts.
 template <int D>
 struct PartContact {

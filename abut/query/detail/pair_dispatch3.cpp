@@ -46,14 +46,16 @@ PairAnswer triangle_distance(const Convex<3>& a, const Convex<3>& b, double reac
 /// The distance if it is at most `reach`, or any distance; else `no`.
 PairAnswer closed_distance(const Convex<3>& a, const Convex<3>& b, double reach, const SearchOptions<3>& options,
                            SignedDistance<3>& result) {
-    CoresDistance found;
-    if (distance_of_cores(a, b, options.cache, found)) {
-        set_distance(found, result);
-        return PairAnswer::yes;
-    }
-    const PairAnswer answer = triangle_distance(a, b, reach, options, result);
-    if (answer != PairAnswer::unknown) return answer;
-    return closed_form_distance(a, b, result) ? PairAnswer::yes : PairAnswer::unknown;
+    const PairAnswer answer = closed_form_distance(a, b, reach, options.cache, result);
+    return answer == PairAnswer::unknown ? triangle_distance(a, b, reach, options, result) : answer;
+}
+
+/// Whether the distance is at most `reach`, and then the distance. Without a limit there is always a distance.
+bool distance_up_to(const Convex<3>& a, const Convex<3>& b, double reach, const SearchOptions<3>& options,
+                    SignedDistance<3>& result) {
+    const PairAnswer answer = closed_distance(a, b, reach, options, result);
+    if (answer == PairAnswer::unknown) result = signed_distance(a, b, options);
+    return answer != PairAnswer::no && result.distance <= reach;
 }
 
 }  // namespace
@@ -68,8 +70,9 @@ bool part_overlaps(const Convex<3>& a, const Convex<3>& b, const SearchOptions<3
     if (answer == PairAnswer::unknown) answer = triangle_overlap(a, b, options);
     if (answer != PairAnswer::unknown) return answer == PairAnswer::yes;
     SignedDistance<3> form;
-    if (closed_form_distance(a, b, form)) return form.distance <= 0;
-    return convex_overlap(a, b, options);
+    answer = closed_form_distance(a, b, 0, nullptr, form);
+    return answer == PairAnswer::unknown ? convex_overlap(a, b, options)
+                                         : answer == PairAnswer::yes && form.distance <= 0;
 }
 
 template <>
@@ -79,9 +82,13 @@ SignedDistance<3> part_distance(const Convex<3>& a, const Convex<3>& b, const Se
         signed_distance(a, b, {.trace = options.trace});
     }
     SignedDistance<3> result;
-    if (closed_distance(a, b, unlimited, options, result) == PairAnswer::unknown)
-        result = signed_distance(a, b, options);
+    distance_up_to(a, b, unlimited, options, result);
     return result;
+}
+
+template <>
+bool part_distance_up_to(const Convex<3>& a, const Convex<3>& b, double reach, SignedDistance<3>& result) {
+    return distance_up_to(a, b, reach, {}, result);
 }
 
 template <>
@@ -104,9 +111,7 @@ bool part_distance_within(const Convex<3>& a, const Convex<3>& b, double reach, 
             contact.manifold.count = 0;
         }
     }
-    const PairAnswer answer = closed_distance(a, b, reach, options, distance);
-    if (answer == PairAnswer::unknown) distance = signed_distance(a, b, options);
-    return answer != PairAnswer::no && distance.distance <= reach;
+    return distance_up_to(a, b, reach, options, distance);
 }
 
 }  // namespace abut::detail

@@ -44,6 +44,13 @@ SignedDistance<D> part_distance(const AnyPart<D>& a, const AnyPart<D>& b, const 
     return are_convex<D>(a, b) ? part_distance(a.convex(), b.convex(), options) : mixed_distance<D>(a, b);
 }
 
+template <int D>
+bool part_distance_up_to(const AnyPart<D>& a, const AnyPart<D>& b, double reach, SignedDistance<D>& result) {
+    if (are_convex<D>(a, b)) return part_distance_up_to(a.convex(), b.convex(), reach, result);
+    result = mixed_distance<D>(a, b);
+    return result.distance <= reach;
+}
+
 /// Like that of two convex parts. For other parts the distance comes with the contact points in one step.
 template <int D>
 bool part_distance_within(const AnyPart<D>& a, const AnyPart<D>& b, double reach, double margin,

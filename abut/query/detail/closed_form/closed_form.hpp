@@ -23,9 +23,11 @@ PairAnswer closed_form_sweep(const ShapeRef<2>& a, const Vec2& motion_a, const S
                              std::optional<Hit<2>>& result);
 
 /// The signed distance of a pair of views, as exact as GJK and EPA: a ball against a ball, a segment, a triangle, a box
-/// or the inside of a polyhedron; a segment or capsule against another, a triangle or a box. Returns false, and leaves
-/// `result` unspecified, if the pair has no closed form, or none that is certain. `result` must be newly constructed:
-/// corners with index 0 aren't written.
-bool closed_form_distance(const Convex<3>& a, const Convex<3>& b, SignedDistance<3>& result);
+/// or the inside of a polyhedron; a segment or capsule against another, a triangle or a box. The answer is `no` if a
+/// cheap test proves that the distance is above `reach`, and `unknown` if the pair has no closed form, or none that is
+/// certain. `result` is written only if the answer is `yes`, or else unspecified. It must be newly constructed: corners
+/// with index 0 aren't written.
+PairAnswer closed_form_distance(const Convex<3>& a, const Convex<3>& b, double reach, Cache* cache,
+                                SignedDistance<3>& result);
 
 }  // namespace abut::detail

@@ -37,12 +37,17 @@ bool polytope_point(const Convex<3>& a, const Convex<3>& b, SignedDistance<3>& r
     return true;
 }
 
+PairAnswer answer_if(bool found) {
+    return found ? PairAnswer::yes : PairAnswer::unknown;
+}
+
 /// B is the simpler one of the pair.
-bool distance_from(const Convex<3>& a, const Convex<3>& b, SignedDistance<3>& result) {
-    if (is_round_points(b, 2)) return is_round_points(a, 3) && triangle_segment(a, b, result);
-    if (!is_round_points(b, 1)) return false;
-    if (is_plain_hull(a)) return hull_point(a, b, result);
-    return (is_round_points(a, 3) && triangle_point(a, b, result)) || polytope_point(a, b, result);
+PairAnswer distance_from(const Convex<3>& a, const Convex<3>& b, double reach, SignedDistance<3>& result) {
+    if (is_round_points(b, 2))
+        return is_round_points(a, 3) ? triangle_segment(a, b, reach, result) : PairAnswer::unknown;
+    if (!is_round_points(b, 1)) return PairAnswer::unknown;
+    if (is_plain_hull(a)) return answer_if(hull_point(a, b, result));
+    return answer_if((is_round_points(a, 3) && triangle_point(a, b, result)) || polytope_point(a, b, result));
 }
 
 std::uint32_t complexity(const Convex<3>& convex) {
@@ -51,16 +56,17 @@ std::uint32_t complexity(const Convex<3>& convex) {
 
 }  // namespace
 
-bool closed_form_distance(const Convex<3>& a, const Convex<3>& b, SignedDistance<3>& result) {
+PairAnswer closed_form_distance(const Convex<3>& a, const Convex<3>& b, double reach, Cache* cache,
+                                SignedDistance<3>& result) {
     CoresDistance found;
-    if (distance_of_cores(a, b, nullptr, found)) {
+    if (distance_of_cores(a, b, cache, found)) {
         set_distance(found, result);
-        return true;
+        return PairAnswer::yes;
     }
-    if (complexity(b) <= complexity(a)) return distance_from(a, b, result);
-    if (!distance_from(b, a, result)) return false;
-    flip(result);
-    return true;
+    if (complexity(b) <= complexity(a)) return distance_from(a, b, reach, result);
+    const PairAnswer answer = distance_from(b, a, reach, result);
+    if (answer == PairAnswer::yes) flip(result);
+    return answer;
 }
 
 }  // namespace abut::detail

@@ -197,7 +197,7 @@ private:
 
     /// How far A moves at least before it comes near a triangle: until it has crossed the plane of the triangle, or one
     /// through a side and the normal. Infinite if it never crosses one of them: most triangles beside the path of a
-    /// shape over a mesh are missed like this.
+    /// shape over a mesh are missed like this. A result beyond the path may be too small.
     double free_length() const {
         double result = 0;
         if constexpr (D == 3 && std::is_same_v<A, Convex<D>> && std::is_same_v<B, Convex<D>>) {
@@ -206,16 +206,18 @@ private:
             for (std::size_t i = 0; i < 3; ++i) corners[i] = b_.place.point(DVec<3>(b_.vertices()[i]));
             const DVec<3> normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
             const double gap = a_.radius + b_.radius + 2 * tolerances_.touch;
+            /// Returns false if the path ends before the plane.
             const auto cross_plane = [&](const DVec<3>& out, const DVec<3>& corner) {
                 const double start = dot(out, core_support(a_, -out).position - corner);
-                if (!(start > 0)) return;
+                if (!(start > 0)) return true;
                 const double rest = start - gap * length(out), closing = -dot(out, path_.direction);
                 if (rest > result * closing)
                     result = closing > 0 ? rest / closing : std::numeric_limits<double>::infinity();
+                return result <= path_.length;
             };
-            cross_plane(dot(normal, corners[0] - some_point(a_)) <= 0 ? normal : -normal, corners[0]);
-            for (std::size_t i = 0; i < 3; ++i)
-                cross_plane(cross(corners[(i + 1) % 3] - corners[i], normal), corners[i]);
+            bool crosses = cross_plane(dot(normal, corners[0] - some_point(a_)) <= 0 ? normal : -normal, corners[0]);
+            for (std::size_t i = 0; crosses && i < 3; ++i)
+                crosses = cross_plane(cross(corners[(i + 1) % 3] - corners[i], normal), corners[i]);
         }
         return result;
     }
