@@ -6,6 +6,7 @@
 #include <abut/query/detail/solid/solid_queries.hpp>
 #include <abut/query/detail/surface/hit_normal.hpp>
 #include <abut/query/detail/sweep/linear.hpp>
+#include <abut/query/detail/sweep/linear_unfiltered.hpp>
 #include <abut/query/detail/sweep/rotating.hpp>
 #include <abut/query/detail/valid_query.hpp>
 #include <abut/query/sweep.hpp>
@@ -188,14 +189,21 @@ std::optional<Hit<3>> sweep(const ShapeRef<3>& a, const Vec3& motion_a, const Sh
 namespace {
 
 template <int D>
-std::optional<Hit<D>> sweep_parts(const View<D>& a, const Vec<D>& motion_a, const View<D>& b, const Vec<D>& motion_b,
-                                  const QueryOptions<D>& options) {
+std::optional<Hit<D>> sweep_parts_unfiltered(const View<D>& a, const Vec<D>& motion_a, const View<D>& b,
+                                             const Vec<D>& motion_b, const QueryOptions<D>& options) {
     std::optional<Hit<D>> result;
     const auto find = [&](const Path<D>& path, LinearImpact<D>& first) {
         const SearchOptions<D> options_of_pair = search_options(a, b, options);
         return first_impact(a, path, b, {options_of_pair.cache, options_of_pair.trace}, first);
     };
     find_first_impact(a, motion_a, b, motion_b, find, result);
+    return result;
+}
+
+template <int D>
+std::optional<Hit<D>> sweep_parts(const View<D>& a, const Vec<D>& motion_a, const View<D>& b, const Vec<D>& motion_b,
+                                  const QueryOptions<D>& options) {
+    std::optional<Hit<D>> result = sweep_parts_unfiltered(a, motion_a, b, motion_b, options);
     if (result && std::holds_alternative<Composite<D>>(b)) {
         // Relative to B's start.
         const DVec<D> moved_b = DVec<D>(motion_b) * static_cast<double>(result->fraction);
@@ -239,6 +247,12 @@ std::optional<Hit<D>> sweep(const View<D>& a, const Vec<D>& motion_a, const View
 }
 
 template <int D>
+std::optional<Hit<D>> detail::sweep_unfiltered(const View<D>& a, const Vec<D>& motion, const View<D>& b) {
+    if (has_solid(a, b)) return sweep(a, motion, b, Vec<D>(0.0f), {});
+    return sweep_parts_unfiltered(a, motion, b, Vec<D>(0.0f), {});
+}
+
+template <int D>
 std::optional<Hit<D>> sweep(const Convex<D>& a, const Motion<D>& motion_a, const Convex<D>& b,
                             const Motion<D>& motion_b, const QueryOptions<D>& options) {
     return sweep_paths(a, rigid_path(motion_a), b, rigid_path(motion_b), options);
@@ -275,13 +289,14 @@ std::optional<Hit<D>> sweep(const View<D>& a, const Pose<D>& from_a, const Pose<
                                          const QueryOptions<D>&);                                            \
     template std::optional<Hit<D>> sweep(const S&, const Pose<D>&, const Pose<D>&, const S&, const Pose<D>&, \
                                          const Pose<D>&, const QueryOptions<D>&);
-#define ABUT_INSTANTIATE(D)                                                                                \
-    template std::optional<Hit<D>> sweep(const View<D>&, const Vec<D>&, const View<D>&, const Vec<D>&,     \
-                                         const QueryOptions<D>&);                                          \
-    template std::optional<Hit<D>> sweep(const Convex<D>&, const Vec<D>&, const Convex<D>&, const Vec<D>&, \
-                                         const QueryOptions<D>&);                                          \
-    ABUT_INSTANTIATE_FOR(D, View<D>)                                                                       \
-    ABUT_INSTANTIATE_FOR(D, Convex<D>)                                                                     \
+#define ABUT_INSTANTIATE(D)                                                                                 \
+    template std::optional<Hit<D>> detail::sweep_unfiltered(const View<D>&, const Vec<D>&, const View<D>&); \
+    template std::optional<Hit<D>> sweep(const View<D>&, const Vec<D>&, const View<D>&, const Vec<D>&,      \
+                                         const QueryOptions<D>&);                                           \
+    template std::optional<Hit<D>> sweep(const Convex<D>&, const Vec<D>&, const Convex<D>&, const Vec<D>&,  \
+                                         const QueryOptions<D>&);                                           \
+    ABUT_INSTANTIATE_FOR(D, View<D>)                                                                        \
+    ABUT_INSTANTIATE_FOR(D, Convex<D>)                                                                      \
     ABUT_INSTANTIATE_FOR(D, ShapeRef<D>)
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)

@@ -3,6 +3,7 @@
 #include <abut/broad_phase/boxes.hpp>
 #include <abut/broad_phase/reach.hpp>
 #include <abut/query/detail/surface/hit_normal.hpp>
+#include <abut/query/detail/sweep/linear_unfiltered.hpp>
 #include <abut/query/detail/valid_query.hpp>
 #include <abut/query/sweep.hpp>
 #include <abut/world/world.hpp>
@@ -63,6 +64,20 @@ std::optional<WorldHit<D>> World<D>::first_on_path(const View<D>& shape, const d
     return first;
 }
 
+/// Whether another item may be as near to a hit as the filter of its normal looks: twice as far as the mover's centre.
+template <int D>
+bool World<D>::has_neighbours(const MoverAtHit<D>& mover, const Filter& filter, const WorldHit<D>& hit) const {
+    if (!std::isfinite(mover.size)) return false;
+    const DVec<D> place(hit.hit.point);
+    const double reach = 2.01 * length(mover.center - place) + 4 * surface_probe_scale * mover.size;
+    bool result = false;
+    visit_in_box(box_around(place, reach), filter, [&](Id id, const View<D>&) {
+        result = id != hit.id;
+        return !result;
+    });
+    return result;
+}
+
 /// Replaces the hit's normal by a surface normal of the union of all items, without internal edges (docs/ghosts.md).
 template <int D>
 void World<D>::filter_normal(const MoverAtHit<D>& mover, const Filter& filter, WorldHit<D>& hit) const {
@@ -84,10 +99,17 @@ std::optional<WorldHit<D>> World<D>::sweep_linear(const View<D>& shape, const Ve
     if (!detail::is_valid_query(shape, motion)) return std::nullopt;
     std::optional<WorldHit<D>> first =
         first_on_path(shape, detail::swept_box(bounds(shape), motion), filter,
-                      [&](const Item& item) { return abut::sweep(shape, motion, placed(item), Vec<D>(0.0f)); });
-    if (first)
-        filter_normal(linear_mover_at_hit<D>(shape, DVec<D>(motion) * static_cast<double>(first->hit.fraction)), filter,
-                      *first);
+                      [&](const Item& item) { return sweep_unfiltered(shape, motion, placed(item)); });
+    if (!first) return first;
+    const MoverAtHit<D> mover =
+        linear_mover_at_hit<D>(shape, DVec<D>(motion) * static_cast<double>(first->hit.fraction));
+    // A composite shape is a surface of its own first, which mostly has no other item near it.
+    const Item& item = *find(first->id);
+    if (std::holds_alternative<Composite<D>>(item.stored.view())) {
+        filter_hit_normal<D>(mover, placed(item), nullptr, first->hit);
+        if (!has_neighbours(mover, filter, *first)) return first;
+    }
+    filter_normal(mover, filter, *first);
     return first;
 }
 

@@ -7,6 +7,7 @@
 #include "support/simulation.hpp"
 #include <abut/math/detail/rigid_path.hpp>
 #include <abut/query/sweep.hpp>
+#include <abut/shape/chain.hpp>
 
 #include <array>
 #include <iostream>
@@ -281,6 +282,64 @@ TEST(WorldSweep, AnswersTheSameWhateverTheBroadPhase) {
         EXPECT_TRUE(record<2>(kind) == record<2>(BroadPhaseKind::brute_force)) << static_cast<int>(kind);
         EXPECT_TRUE(record<3>(kind) == record<3>(BroadPhaseKind::brute_force)) << static_cast<int>(kind);
     }
+}
+
+/// Rough ground from x = -20 to 20, with a level middle part.
+std::vector<Vec2> rough_ground(oracle::Random& random) {
+    std::vector<Vec2> result;
+    for (int x = -20; x <= 20; ++x)
+        result.emplace_back(static_cast<float>(x), std::abs(x) < 5 ? 0.0f : random.uniform_float(-0.5, 0.5));
+    return result;
+}
+
+TEST(WorldSweep, AtOneChainIsThatOfTheChain) {
+    oracle::Random random(61);
+    int hits = 0;
+    constexpr int count = 3000;
+    const Chain chain = *Chain::build(rough_ground(random), false);
+    World2 world;
+    world.add(chain, {.fixed = true});
+    for (int i = 0; i < count; ++i) {
+        Box2 box{{random.uniform_float(-20, 20), random.uniform_float(-0.2, 2)}, Vec2(0.3f)};
+        Vec2 motion{random.uniform_float(-2, 2), random.uniform_float(-2, 0)};
+        if (i % 2 == 0) {
+            // It slides over the seams of the level part, and its corner sinks to an end of a segment.
+            box.center = {random.uniform_float(-4, 4), 0.3f};
+            motion.y = random.uniform_float(-5e-6, 0);
+        }
+        const auto expected = sweep(box, motion, chain);
+        const auto hit = world.sweep(box, motion);
+        ASSERT_EQ(hit.has_value(), expected.has_value());
+        if (!hit) continue;
+        ++hits;
+        ASSERT_TRUE(Bits(hit->hit) == Bits(*expected)) << "box at " << box.center.x << ", " << box.center.y;
+    }
+    EXPECT_GT(hits, count / 3);
+    EXPECT_LT(hits, count - count / 10);
+}
+
+TEST(WorldSweep, HasNoNormalOfTheSeamOfTwoChains) {
+    std::vector<Vec2> left, right;
+    for (int x = 0; x <= 20; ++x) {
+        left.emplace_back(static_cast<float>(x - 20), 0.0f);
+        right.emplace_back(static_cast<float>(x), 0.0f);
+    }
+    const Chain beyond = *Chain::build(right, false);
+    World2 world;
+    world.add(*Chain::build(left, false), {.fixed = true});
+    const Id hit_one = world.add(beyond, {.fixed = true});
+    // Its lower right corner sinks by 3e-6 on the way to the end of the other chain.
+    const Box2 box{{-0.540712774f, 0.300000012f}, Vec2(0.3f)};
+    const Vec2 motion{0.364902914f, -3.14491626e-06f};
+    const auto alone = sweep(box, motion, beyond);
+    ASSERT_TRUE(alone);
+    ASSERT_LT(alone->normal.x, -0.99f) << "without the other chain it is an end";
+    before_and_after_update(world, [&] {
+        const auto hit = world.sweep(box, motion);
+        ASSERT_TRUE(hit);
+        EXPECT_EQ(hit->id, hit_one);
+        EXPECT_GT(hit->hit.normal.y, 0.999f);
+    });
 }
 
 }  // namespace
