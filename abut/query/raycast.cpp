@@ -72,6 +72,22 @@ std::optional<Hit<D>> answer(const Ray<D>& ray, const Shape& shape, const QueryO
     return result;
 }
 
+template <int D>
+bool any_hit(const DRay<D>& beam, const Composite<D>& composite, const QueryOptions<D>& options) {
+    PartHit<D> hit;
+    bool any = false;
+    if constexpr (D == 3) {
+        if (composite.solid != nullptr) return first_hit(beam, composite, options, hit);
+        if (any_triangle_hit(beam, composite, options, any)) return any;
+    }
+    each_part_along<D>(composite, beam.origin, beam.direction, beam.length,
+                       [&](const Convex<D>& part, std::uint32_t index) -> float {
+                           any = any || part_hit(beam, part, index, options.trace, hit);
+                           return any ? -1.0f : static_cast<float>(beam.length);
+                       });
+    return any;
+}
+
 /// Calls visit(hit) for each part of a composite shape that the ray hits; visit returns the new reach.
 template <int D>
 void visit_hits(const DRay<D>& beam, const Composite<D>& composite, const QueryOptions<D>& options,
@@ -136,6 +152,16 @@ std::optional<Hit<D>> raycast(const Ray<D>& ray, const View<D>& shape, const Que
 }
 
 template <int D>
+bool raycast_any(const Ray<D>& ray, const Composite<D>& shape, const QueryOptions<D>& options) {
+    return detail::is_valid_query(shape, ray) && any_hit(to_dray(ray), shape, options);
+}
+template <int D>
+bool raycast_any(const Ray<D>& ray, const View<D>& shape, const QueryOptions<D>& options) {
+    if (const auto* const composite = std::get_if<Composite<D>>(&shape)) return raycast_any(ray, *composite, options);
+    return raycast(ray, shape, options).has_value();
+}
+
+template <int D>
 std::optional<Hit<D>> raycast(const Ray<D>& ray, const SolidBsp<D>& level, const QueryOptions<D>&) {
     detail::enter_library();
     if (!detail::is_valid_query(ray)) return std::nullopt;
@@ -185,6 +211,8 @@ Ray<D> reflect(const Ray<D>& ray, const Hit<D>& hit) {
     template std::optional<Hit<D>> raycast(const Ray<D>&, const View<D>&, const QueryOptions<D>&);                    \
     template std::optional<Hit<D>> raycast(const Ray<D>&, const Composite<D>&, const QueryOptions<D>&);               \
     template std::optional<Hit<D>> raycast(const Ray<D>&, const Convex<D>&, const QueryOptions<D>&);                  \
+    template bool raycast_any(const Ray<D>&, const View<D>&, const QueryOptions<D>&);                                 \
+    template bool raycast_any(const Ray<D>&, const Composite<D>&, const QueryOptions<D>&);                            \
     template void each_hit(const Ray<D>&, const View<D>&, FunctionRef<float(const Hit<D>&)>, const QueryOptions<D>&); \
     template void raycast_all(const Ray<D>&, const View<D>&, std::vector<Hit<D>>&, const QueryOptions<D>&);           \
     template std::optional<Hit<D>> raycast(const Ray<D>&, const SolidBsp<D>&, const QueryOptions<D>&);                \

@@ -97,7 +97,8 @@ void find_first_hit_in_double(const WalkMeshData& data, const DRay<3>& beam, Fir
     };
     MeshHit hit;
     FirstHit first{beam.length};
-    if (!find_first_hit(data.tree, MeshRay{beam, beam}, RobustTriangleTest(undecided), hit)) {
+    const Ray3 rounded{point, to_float(beam.direction), reach};
+    if (!find_first_hit(data.tree, MeshRay{beam, {rounded}}, RobustTriangleTest(undecided), hit)) {
         find_first_hit_in_double(data, beam, first);
     } else if (hit.triangle != nullptr) {
         first = {hit.entry.along, *hit.triangle};

@@ -69,7 +69,7 @@ template <int D>
 bool World<D>::any_hit(const Ray<D>& ray, const Filter& filter) const {
     bool any = false;
     each_near_ray(ray, filter, [&](std::uint32_t slot) {
-        any = any || abut::raycast(ray, placed(items_[slot]));
+        any = any || abut::raycast_any(ray, placed(items_[slot]));
         return any ? -1.0f : ray.length;
     });
     return any;

@@ -62,13 +62,8 @@ Job rays(const SharedRayMesh& scene) {
 
 Job any_hits(const SharedRayMesh& scene) {
     const Side ours{"abut", [scene, mesh = *Mesh::build(scene->points, scene->triangles)](std::span<double> values) {
-                        for (std::size_t i = 0; i < values.size(); ++i) {
-                            values[i] = 0;
-                            each_hit(scene->rays[i], mesh, [&](const Hit<3>&) {
-                                values[i] = 1;
-                                return false;
-                            });
-                        }
+                        for (std::size_t i = 0; i < values.size(); ++i)
+                            values[i] = raycast_any(scene->rays[i], mesh) ? 1 : 0;
                     }};
     return {.items = ray_count,
             .values = ray_count,

@@ -14,8 +14,8 @@ namespace abut::detail {
 /// The box of a triangle, padded by the tolerance of ray hits. `all` grows by the unpadded box.
 BvhItem item_of(const Triangle3& triangle, std::uint32_t index, Aabb3& all);
 
-/// The extent |x| + |y| + |z| of the box of a leaf's vertices, for error bounds.
-float extent_of(const MeshLeaf& leaf);
+/// Sets the sizes in a leaf that serve error bounds, when its triangles are complete.
+void set_sizes(MeshLeaf& leaf);
 
 /// Marks a box of a node as unused. The infinite bounds of the first axis put it out of the reach of every ray, however
 /// minima and maxima of NaN come out; comparisons with the NaN of the others exclude it for every box.

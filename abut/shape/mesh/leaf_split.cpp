@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <limits>
 
 namespace abut::detail {
@@ -69,8 +70,7 @@ void sort(const std::array<std::uint64_t, max_small_set>& keys, std::uint32_t co
     for (std::uint32_t i = 0; i < count; ++i) order[rank[i]] = static_cast<std::uint8_t>(i);
 }
 
-}  // namespace
-
+/// The extent |x| + |y| + |z| of the box of a leaf's vertices, rounded up.
 float extent_of(const MeshLeaf& leaf) {
     float result = 0;
     for (const auto& row : leaf.corner) {
@@ -79,6 +79,26 @@ float extent_of(const MeshLeaf& leaf) {
     }
     // Products that underflow aren't bounded by their factors.
     return result > 1e-9f && result < 1e12f ? result : std::numeric_limits<float>::infinity();
+}
+
+/// The square of twice the area of a leaf's largest triangle.
+float largest_squared_area(const MeshLeaf& leaf) {
+    float result = 0;
+    for (std::uint32_t rest = leaf.used; rest != 0; rest &= rest - 1) {
+        const Triangle3 t = leaf.at(static_cast<std::uint32_t>(std::countr_zero(rest)));
+        const Vec3 ab = t.b - t.a, ac = t.c - t.a;
+        const Vec3 normal{ab.y * ac.z - ab.z * ac.y, ab.z * ac.x - ab.x * ac.z, ab.x * ac.y - ab.y * ac.x};
+        result = std::max(result, normal.x * normal.x + normal.y * normal.y + normal.z * normal.z);
+    }
+    return result;
+}
+
+}  // namespace
+
+void set_sizes(MeshLeaf& leaf) {
+    leaf.extent = extent_of(leaf);
+    // The second term also covers the rounding of the first.
+    leaf.min_area = 4e-3f * std::sqrt(largest_squared_area(leaf)) + 1.1e-5f * leaf.extent * leaf.extent;
 }
 
 SmallTriangleSet::SmallTriangleSet(std::span<const BvhItem> items, std::span<const glm::uvec3> triangles,
@@ -158,7 +178,7 @@ void SmallTriangleSet::fill(const Part& part, std::span<const Vec3> points, Mesh
     }
     for (std::uint32_t lane = part.count; lane < mesh_lanes; ++lane) leaf.triangle[lane] = 0;
     leaf.used = (1u << part.count) - 1;
-    leaf.extent = extent_of(leaf);
+    set_sizes(leaf);
 }
 
 Aabb3 SmallTriangleSet::box(const Part& part) const {

@@ -14,13 +14,18 @@ HWY_BEFORE_NAMESPACE();
 namespace abut::detail::HWY_NAMESPACE {
 
 template <class Test>
-bool find_each(const MeshTree& tree, const MeshRay& ray, const Test& test, const MeshHitCall& visit) {
-    RayEntry<3> found;
-    double reach = ray.world.length;
-    return traverse(tree, ray, [&](const MeshLeaf& leaf, std::uint32_t lane, const std::uint32_t& index) {
-        if (test(leaf, lane, reach, found)) reach = visit(found, index);
-        return reach;
-    });
+bool find_any_by(const MeshTree& tree, const MeshRay& ray, const Test& test, bool& found) {
+    const auto is_hit = [&](const MeshLeaf& leaf, std::uint32_t lane) {
+        RayEntry<3> entry;
+        return test(leaf, lane, ray.world.length, entry);
+    };
+    return find_any(tree, ray.local, is_hit, found);
+}
+
+bool any_hit(const MeshTree& tree, const MeshRay& ray, const RobustTriangleTest& undecided, bool& found) {
+    if (ray.to_ray == nullptr)
+        return find_any_by(tree, ray, TriangleTest<ToRayByOffset>(ray, {ray.world.origin}, undecided), found);
+    return find_any_by(tree, ray, TriangleTest<ToRayByMap>(ray, {*ray.to_ray}, undecided), found);
 }
 
 bool first_hit(const MeshTree& tree, const MeshRay& ray, const RobustTriangleTest& undecided, MeshHit& hit) {
@@ -42,10 +47,15 @@ HWY_AFTER_NAMESPACE();
 namespace abut::detail {
 
 HWY_EXPORT(first_hit);
+HWY_EXPORT(any_hit);
 HWY_EXPORT(each_hit);
 
 bool find_first_hit(const MeshTree& tree, const MeshRay& ray, const RobustTriangleTest& undecided, MeshHit& hit) {
     return HWY_DYNAMIC_DISPATCH(first_hit)(tree, ray, undecided, hit);
+}
+
+bool find_any_hit(const MeshTree& tree, const MeshRay& ray, const RobustTriangleTest& undecided, bool& found) {
+    return HWY_DYNAMIC_DISPATCH(any_hit)(tree, ray, undecided, found);
 }
 
 bool find_each_hit(const MeshTree& tree, const MeshRay& ray, const RobustTriangleTest& undecided,

@@ -35,6 +35,8 @@ struct alignas(64) MeshLeaf {
     /// The extent |x| + |y| + |z| of its box, rounded up; infinite if the products of such numbers overflow or
     /// underflow.
     float extent;
+    /// A ray that sees a triangle of it with more than half of this area doesn't graze it.
+    float min_area;
 
     std::uint32_t count() const { return static_cast<std::uint32_t>(std::popcount(used)); }
     Vec3 position(std::uint32_t number) const { return {corner[0][number], corner[1][number], corner[2][number]}; }

@@ -74,7 +74,7 @@ private:
         for (std::uint32_t lane = count; lane < mesh_lanes; ++lane) leaf.triangle[lane] = 0;
         leaf.first = first;
         leaf.used = (1u << count) - 1;
-        leaf.extent = extent_of(leaf);
+        set_sizes(leaf);
         leaf_boxes_.push_back(box);
         return true;
     }

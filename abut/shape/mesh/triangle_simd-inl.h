@@ -74,9 +74,14 @@ public:
         return {lookup(rows[0], indices), lookup(rows[1], indices), lookup(rows[2], indices)};
     }
     template <int which>
-    HWY_INLINE V2 pick(const LeafRows<2>& rows) const {
+    HWY_INLINE V2 pick(const LeafRows<3>& rows) const {
         const auto indices = numbers<which>();
         return {rows.lookup(0, indices), rows.lookup(1, indices)};
+    }
+
+    template <int which>
+    HWY_INLINE V pick_row(const LeafRows<3>& rows, int row) const {
+        return rows.lookup(row, numbers<which>());
     }
 
 private:

@@ -37,6 +37,10 @@ bool part_hit_by_advance(const DRay<D>& beam, const Convex<D>& part, std::uint32
 bool first_triangle_hit(const DRay<3>& beam, const Composite<3>& composite, const QueryOptions<3>& options,
                         PartHit<3>& first, bool& found);
 
+/// Whether the ray hits a triangle within reach. Returns false, and sets nothing, if the shape isn't known by its
+/// triangles.
+bool any_triangle_hit(const DRay<3>& beam, const Composite<3>& composite, const QueryOptions<3>& options, bool& found);
+
 /// Receives one part that the ray hits; returns the new, shorter reach.
 using HitVisitor = FunctionRef<double(const PartHit<3>& hit)>;
 

@@ -13,13 +13,13 @@ bool is_unplaced(const Composite<3>& composite) {
 /// A composite in the frame of its triangles, for one ray.
 struct Target {
     const DRay<3>& beam;
-    DRay<3> own{};
+    Ray3 local{};
     Affine<3> placement{};
-    bool placed = false;
-    double unit = 1, placement_error = 0, wanted_side = 0;
+    bool placed = false, similar = true;
+    double unit = 1, origin_error = 0, wanted_side = 0;
 
     MeshRay mesh_beam() const {
-        return {beam, placed ? own : beam, unit, placement_error, placed ? &placement : nullptr, wanted_side};
+        return {beam, {local, origin_error, wanted_side, similar}, unit, placed ? &placement : nullptr};
     }
 };
 
@@ -42,20 +42,27 @@ bool set_target(const Composite<3>& composite, const QueryOptions<3>& options, T
     const bool thin = composite.radius == 0 && composite.inner_radius == 0;
     if (composite.triangles == nullptr || !thin) return false;
     target.wanted_side = options.back_faces ? 0 : 1;
-    if (is_unplaced(composite)) return true;
+    const DRay<3>& beam = target.beam;
+    target.origin_error = 0x1p-24 * largest(beam.origin);
+    if (is_unplaced(composite)) {
+        target.local = {to_float(beam.origin), to_float(beam.direction), static_cast<float>(beam.length)};
+        return true;
+    }
     const double volume = determinant(composite.place);
     if (volume == 0) return false;
     if (volume < 0) target.wanted_side = -target.wanted_side;
     target.placed = true;
     target.placement = composite.place;
-    target.placement.offset -= target.beam.origin;
+    target.placement.offset -= beam.origin;
     const Affine<3> back = inverse(composite.place, volume);
-    if (target.beam.rests()) return true;
-    const DVec<3> along = back.vector(target.beam.direction);
+    if (beam.rests()) return true;
+    const DVec<3> along = back.vector(beam.direction);
     target.unit = length(along);
     if (!(target.unit > 1e-30 && target.unit < 1e30)) return false;
-    target.own = {back.point(target.beam.origin), along / target.unit, target.beam.length * target.unit};
-    target.placement_error = placement_error_of(composite, back, target.own.origin);
+    const DVec<3> origin = back.point(beam.origin);
+    target.local = {to_float(origin), to_float(along / target.unit), static_cast<float>(beam.length * target.unit)};
+    target.origin_error = placement_error_of(composite, back, origin) + 0x1p-24 * largest(origin);
+    target.similar = composite.similar;
     return true;
 }
 
@@ -83,6 +90,14 @@ bool first_triangle_hit(const DRay<3>& beam, const Composite<3>& composite, cons
     found = hit.triangle != nullptr;
     if (found) first = part_hit(hit.entry, *hit.triangle);
     return true;
+}
+
+bool any_triangle_hit(const DRay<3>& beam, const Composite<3>& composite, const QueryOptions<3>& options, bool& found) {
+    Target target{beam};
+    if (!set_target(composite, options, target)) return false;
+    if (beam.rests()) return true;
+    const auto undecided = by_advance(beam, parts_of(composite), options.trace);
+    return find_any_hit(*composite.triangles, target.mesh_beam(), RobustTriangleTest(undecided), found);
 }
 
 bool each_triangle_hit(const DRay<3>& beam, const Composite<3>& composite, const QueryOptions<3>& options,
