@@ -66,7 +66,7 @@ std::optional<WorldHit<D>> World<D>::first_on_path(const View<D>& shape, const d
 
 /// Whether another item may be as near to a hit as the filter of its normal looks: twice as far as the mover's centre.
 template <int D>
-bool World<D>::has_neighbours(const MoverAtHit<D>& mover, const Filter& filter, const WorldHit<D>& hit) const {
+bool World<D>::has_other_item_near(const MoverAtHit<D>& mover, const Filter& filter, const WorldHit<D>& hit) const {
     if (!std::isfinite(mover.size)) return false;
     const DVec<D> place(hit.hit.point);
     const double reach = 2.01 * length(mover.center - place) + 4 * surface_probe_scale * mover.size;
@@ -107,7 +107,7 @@ std::optional<WorldHit<D>> World<D>::sweep_linear(const View<D>& shape, const Ve
     const Item& item = *find(first->id);
     if (std::holds_alternative<Composite<D>>(item.stored.view())) {
         filter_hit_normal<D>(mover, placed(item), nullptr, first->hit);
-        if (!has_neighbours(mover, filter, *first)) return first;
+        if (!has_other_item_near(mover, filter, *first)) return first;
     }
     filter_normal(mover, filter, *first);
     return first;

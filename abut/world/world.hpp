@@ -454,7 +454,7 @@ private:
     template <class F>
     std::optional<WorldHit<D>> first_on_path(const View<D>& shape, const detail::SweptBox<D>& path,
                                              const Filter& filter, F&& sweep_at) const;
-    bool has_neighbours(const detail::MoverAtHit<D>& mover, const Filter& filter, const WorldHit<D>& hit) const;
+    bool has_other_item_near(const detail::MoverAtHit<D>& mover, const Filter& filter, const WorldHit<D>& hit) const;
     void filter_normal(const detail::MoverAtHit<D>& mover, const Filter& filter, WorldHit<D>& hit) const;
     std::optional<WorldHit<D>> sweep_linear(const View<D>& shape, const Vec<D>& motion, const Filter& filter) const;
     std::optional<WorldHit<D>> sweep_rotating(const View<D>& shape, const Motion<D>& motion,
