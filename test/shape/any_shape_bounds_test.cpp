@@ -1,4 +1,5 @@
-// The bounding boxes of an AnyShape: without a view those of the view, bit for bit, and with a margin as large as told.
+// The bounding boxes of an AnyShape: without a view those of the view, bit for bit, and with a margin of 1e-6 of their
+// size.
 
 #include "../oracle/random.hpp"
 #include <abut/shape/any_shape.hpp>
