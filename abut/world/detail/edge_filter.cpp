@@ -156,11 +156,11 @@ bool World<D>::needs_filter(std::uint32_t slot) {
 /// Whether the AABB of a partner other than this one overlaps a box. It needs no list of neighbours.
 template <int D>
 bool World<D>::has_partner_in(const Aabb<D>& near, std::uint32_t slot, std::uint32_t other) const {
-    const Aabb<D>* const other_box = &box(other);
+    const PartnerBoxes<D> boxes({&moving_, &fixed_}, nullptr);
     for (const BoxIndex partner : edges_->partners_of(slot)) {
-        const Aabb<D>& found = (partner.is_fixed() ? fixed_ : moving_).box(partner.place());
-        bool overlap = &found != other_box;
-        for (int i = 0; i < D; ++i) overlap &= (found.min[i] <= near.max[i]) & (found.max[i] >= near.min[i]);
+        const Neighbour<D> found = boxes(partner);
+        bool overlap = found.slot != other;
+        for (int i = 0; i < D; ++i) overlap &= (found.box->min[i] <= near.max[i]) & (found.box->max[i] >= near.min[i]);
         if (overlap) return true;
     }
     return false;

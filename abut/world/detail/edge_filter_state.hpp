@@ -24,7 +24,6 @@ public:
     BoxIndex(std::uint32_t place, bool is_fixed) : bits_(place << 1 | (is_fixed ? 1u : 0u)) {}
     std::uint32_t place() const { return bits_ >> 1; }
     std::uint32_t kind() const { return bits_ & 1; }
-    bool is_fixed() const { return kind() != 0; }
 
 private:
     std::uint32_t bits_;
