@@ -3,76 +3,17 @@
 #include <abut/bake/combine_fields.hpp>
 #include <abut/bake/field.hpp>
 #include <abut/field/field.hpp>
+#include <abut/math/thread_pool.hpp>
 #include <abut/shape/ball.hpp>
 #include <abut/shape/box.hpp>
 
 #include <algorithm>
-#include <atomic>
-#include <condition_variable>
 #include <cstdint>
 #include <cstdio>
-#include <mutex>
 #include <span>
-#include <thread>
 #include <vector>
 
 namespace {
-
-/// A pool of two threads, the caller's and one more, as most games have.
-class TwoThreads : public abut::Executor {
-public:
-    TwoThreads() : helper_([this](const std::stop_token& stop) { help(stop); }) {}
-    ~TwoThreads() override {
-        helper_.request_stop();
-        wake_.notify_all();
-    }
-
-    std::uint32_t workers() const override { return 2; }
-    void run(std::uint32_t count, abut::FunctionRef<void(std::uint32_t)> part) override {
-        {
-            const std::lock_guard lock(mutex_);
-            part_ = &part;
-            count_ = count;
-            next_ = 0;
-            ++job_;
-            helping_ = true;
-        }
-        wake_.notify_one();
-        work(count, part);
-        std::unique_lock lock(mutex_);
-        done_.wait(lock, [this] { return !helping_; });
-    }
-
-private:
-    void work(std::uint32_t count, abut::FunctionRef<void(std::uint32_t)> part) {
-        for (std::uint32_t i = next_++; i < count; i = next_++) part(i);
-    }
-    void help(const std::stop_token& stop) {
-        std::uint64_t seen = 0;
-        for (;;) {
-            std::unique_lock lock(mutex_);
-            wake_.wait(lock, [&] { return stop.stop_requested() || job_ != seen; });
-            if (stop.stop_requested()) return;
-            seen = job_;
-            const auto part = *part_;
-            const std::uint32_t count = count_;
-            lock.unlock();
-            work(count, part);
-            lock.lock();
-            helping_ = false;
-            done_.notify_one();
-        }
-    }
-
-    std::mutex mutex_;
-    std::condition_variable wake_, done_;
-    const abut::FunctionRef<void(std::uint32_t)>* part_ = nullptr;
-    std::uint32_t count_ = 0;
-    std::atomic<std::uint32_t> next_ = 0;
-    std::uint64_t job_ = 0;
-    bool helping_ = false;
-    std::jthread helper_;  // declared last: it uses the members above
-};
 
 struct Particles {
     std::vector<abut::Vec3> position, velocity;
@@ -132,7 +73,7 @@ int main() {
         all.velocity.push_back({0.3f * (static_cast<float>(i % 7) - 3), 0, 0.3f * (static_cast<float>(i % 11) - 5)});
     }
 
-    TwoThreads threads;
+    abut::ThreadPool threads(2);
     constexpr std::uint32_t parts = 32;
     std::uint32_t touching[parts] = {}, most = 0;
     for (int frame = 0; frame < 120; ++frame) {

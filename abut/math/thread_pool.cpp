@@ -4,6 +4,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -57,7 +58,12 @@ struct ThreadPool::State {
 
 ThreadPool::ThreadPool(std::uint32_t workers) : state_(std::make_unique<State>()) {
     if (workers == 0) workers = std::max(1u, std::thread::hardware_concurrency());
-    for (std::uint32_t i = 1; i < workers; ++i) state_->threads.emplace_back([this] { state_->work(); });
+    state_->threads.reserve(workers - 1);
+    try {
+        for (std::uint32_t i = 1; i < workers; ++i) state_->threads.emplace_back([this] { state_->work(); });
+    } catch (const std::system_error&) {
+        // The system gives no more threads: those that started do all the work.
+    }
 }
 
 ThreadPool::~ThreadPool() {

@@ -13,7 +13,8 @@ namespace abut {
 /// turns; within a part, `run` calls its parts in order, on the same thread. No part may throw.
 class ThreadPool final : public Executor {
 public:
-    /// With this many workers, the calling thread included; by default as many as the machine runs at the same time.
+    /// With this many workers, the calling thread included; by default as many as the machine runs at the same time. If
+    /// the system refuses a thread, with those before it.
     explicit ThreadPool(std::uint32_t workers = 0);
     ~ThreadPool() override;
 

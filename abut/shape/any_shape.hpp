@@ -14,7 +14,7 @@
 namespace abut::detail {
 
 /// The bounding box without a view, bit for bit that of the view. It is empty if a number of the shape or the pose is
-/// NaN or infinite. `grow` adds a margin on each side, `query_margin` times the sum of the box's widths.
+/// NaN or infinite. `grow` adds a margin on each side, 1e-6 of the sum of the box's widths.
 template <int D>
 Aabb<D> bounds_at(const Ball<D>& ball, const Pose<D>& pose, bool grow);
 template <int D>

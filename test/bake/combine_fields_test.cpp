@@ -1,4 +1,3 @@
-#include "../broad_phase/executors.hpp"
 #include "../field/analytic.hpp"
 #include "../oracle/random.hpp"
 #include <abut/bake/combine_fields.hpp>
@@ -6,6 +5,7 @@
 #include <abut/bake/field/samples.hpp>
 #include <abut/convex/features.hpp>
 #include <abut/field/packed_direction.hpp>
+#include <abut/math/thread_pool.hpp>
 
 #include <algorithm>
 #include <array>
@@ -344,7 +344,7 @@ TEST(CombineFields, WhatTheVolumeCutsEndsThere) {
 TEST(CombineFields, ManyThreadsMakeTheSame) {
     const Field3 a = field_of(oracle::ball<3>({0, 0, 0}, 1), FieldStore::sparse, 0.08);
     const Field3 b = field_of(oracle::box<3>({0.8, 0.3, 0.1}, {0.6, 0.4, 0.5}), FieldStore::sparse, 0.08);
-    test::ThreadExecutor threads(3);
+    ThreadPool threads(3);
     const auto alone = field_redistance(*field_difference(a, b)),
                together = field_redistance(*field_difference(a, b, {.executor = &threads}), {.executor = &threads});
     ASSERT_TRUE(alone);

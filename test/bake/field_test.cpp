@@ -5,11 +5,11 @@
 
 #include "../../scenes/bumpy_ball.hpp"
 #include "../../scenes/solid_meshes.hpp"
-#include "../broad_phase/executors.hpp"
 #include "../oracle/is_long.hpp"
 #include "../oracle/simd_targets.hpp"
 #include <abut/bake/field.hpp>
 #include <abut/field/packed_direction.hpp>
+#include <abut/math/thread_pool.hpp>
 #include <abut/shape/ball.hpp>
 #include <abut/shape/half_space.hpp>
 
@@ -138,7 +138,7 @@ TEST(BakeField, ThreadsChangeNoBit) {
             FieldOptions<3> options = everything();
             options.store = store;
             const Result<Field3> alone = bake_field(mesh.points, mesh.triangles, options);
-            test::ThreadExecutor threads(4);
+            ThreadPool threads(4);
             options.executor = &threads;
             const Result<Field3> together = bake_field(mesh.points, mesh.triangles, options);
             ASSERT_TRUE(alone && together);

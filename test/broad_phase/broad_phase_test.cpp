@@ -1,10 +1,10 @@
 // Every broad phase against every pair: after a build, and after many updates.
 
-#include "executors.hpp"
 #include "scenes.hpp"
 #include "structures.hpp"
 #include <abut/broad_phase/concept.hpp>
 #include <abut/broad_phase/reach.hpp>
+#include <abut/math/thread_pool.hpp>
 
 #include <algorithm>
 #include <memory>
@@ -266,7 +266,7 @@ TYPED_TEST(BroadPhases, PairsOfFourBoxes) {
 
 template <int D>
 void have_the_same_pairs_with_several_threads(const AnyBroadPhase<D>& empty) {
-    ThreadExecutor executor(3);
+    ThreadPool executor(3);
     for (const Scene scene : all_scenes)
         for (const std::uint32_t count : {0u, 1u, 7u, 3000u}) {
             SCOPED_TRACE(testing::Message() << "scene " << static_cast<int>(scene) << " of " << count << " seed 31");
@@ -307,7 +307,7 @@ void other_threads_stop_soon_after_one_has_enough(const AnyBroadPhase<D>& empty)
     oracle::Random random(41);
     const auto boxes = make_scene<D>(Scene::uniform, 20000, random);
     const auto phase = Checks<D>::built(empty, boxes);
-    ThreadExecutor executor(3);
+    ThreadPool executor(3);
     std::atomic<std::size_t> all = 0, visited_count = 0;
     phase.each_pair([&](std::uint32_t, std::uint32_t) { ++all; }, &executor);
     EXPECT_GT(all, 10000u);

@@ -1,6 +1,5 @@
 // Cases that only splitting planes have: boxes that end at a plane, deep trees, and updates in which few boxes move.
 
-#include "executors.hpp"
 #include "scenes.hpp"
 #include <abut/broad_phase/brute_force.hpp>
 #include <abut/broad_phase/bsp.hpp>

@@ -1,9 +1,9 @@
 // A tree that changes: items that come one by one, thousands of frames, and several threads.
 
 #include "../../scenes/moving_boxes.hpp"
-#include "executors.hpp"
 #include "scenes.hpp"
 #include <abut/broad_phase/bvh.hpp>
+#include <abut/math/thread_pool.hpp>
 
 #include <algorithm>
 #include <tuple>
@@ -111,7 +111,7 @@ TYPED_TEST(BvhChanges, IsTheSameTreeWithSeveralThreads) {
     for (const Scene scene : {Scene::uniform, Scene::mixed_sizes, Scene::holes_and_endless}) {
         auto boxes = make_scene<D>(scene, 20000, random);
         TypeParam one, many[2];
-        ThreadExecutor two(2), seven(7);
+        ThreadPool two(2), seven(7);
         one.build(boxes);
         many[0].build(boxes, &two);
         many[1].build(boxes, &seven);

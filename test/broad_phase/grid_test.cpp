@@ -2,10 +2,10 @@
 
 #include "../oracle/random.hpp"
 #include "../oracle/simd_targets.hpp"
-#include "executors.hpp"
 #include "scenes.hpp"
 #include <abut/broad_phase/brute_force.hpp>
 #include <abut/broad_phase/grid.hpp>
+#include <abut/math/thread_pool.hpp>
 
 #include <algorithm>
 #include <array>
@@ -164,7 +164,7 @@ TYPED_TEST(Grids, AreTheSameWithSeveralThreads) {
             for (std::size_t i = 0; i < boxes.size(); ++i)
                 boxes[i] = box_at<D>(DVec<D>(static_cast<double>(i % 5000)), DVec<D>(0.6));
         TypeParam one, many[2];
-        ThreadExecutor two(2), seven(7);
+        ThreadPool two(2), seven(7);
         one.build(boxes);
         many[0].build(boxes, &two);
         many[1].build(boxes, &seven);

@@ -2,10 +2,10 @@
 // allow.
 
 #include "allocations.hpp"
-#include "executors.hpp"
 #include "scenes.hpp"
 #include <abut/broad_phase/brute_force.hpp>
 #include <abut/broad_phase/temporal.hpp>
+#include <abut/math/thread_pool.hpp>
 
 #include <algorithm>
 #include <atomic>
@@ -283,7 +283,7 @@ TYPED_TEST(TemporalTest, SeveralThreadsReportTheSamePairs) {
     Rascals<D> rascals(1500, 0.5, 0.01, 9);
     typename TypeParam::Type phase;
     phase.build(rascals.boxes(), rascals.speeds());
-    ThreadExecutor threads(3);
+    ThreadPool threads(3);
     std::mutex mutex;
     std::vector<detail::ItemPair> pairs;
     phase.each_pair(

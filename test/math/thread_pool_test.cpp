@@ -4,11 +4,16 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstdlib>
 #include <numeric>
 #include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#ifdef __linux__
+#include <sys/resource.h>
+#endif
 
 namespace abut::test {
 namespace {
@@ -62,6 +67,21 @@ TEST(ThreadPool, ManyThreadsMayRunJobs) {
     for (std::thread& caller : callers) caller.join();
     EXPECT_EQ(sums, std::vector<std::uint64_t>(4, 200u * 21));
 }
+
+/// Regression: a pool of 500 threads in 300 MB of address space ended the program, by std::terminate.
+#if defined(__linux__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+TEST(ThreadPool, TakesFewerThreadsIfTheSystemRefusesMore) {
+    const auto run_with_little_memory = [] {
+        const rlimit limit{300'000'000, 300'000'000};
+        if (setrlimit(RLIMIT_AS, &limit) != 0) std::exit(1);
+        ThreadPool pool(500);
+        std::atomic<std::uint32_t> runs = 0;
+        pool.run(1000, [&](std::uint32_t) { ++runs; });
+        std::_Exit(runs == 1000 && pool.workers() < 500 ? 0 : 2);
+    };
+    EXPECT_EXIT(run_with_little_memory(), testing::ExitedWithCode(0), "");
+}
+#endif
 
 }  // namespace
 }  // namespace abut::test

@@ -2,11 +2,11 @@
 // walkers fail by: a start exactly on an edge, a weight of exactly 0, `<=` instead of `<`, a reversed triangle, and a
 // limit of steps.
 
-#include "../broad_phase/executors.hpp"
 #include "../oracle/is_long.hpp"
 #include "../oracle/random.hpp"
 #include "walk_check.hpp"
 #include "walk_surfaces.hpp"
+#include <abut/math/thread_pool.hpp>
 #include <abut/walk/walk_mesh.hpp>
 
 #include <cmath>
@@ -181,7 +181,7 @@ TEST(WalkMany, ManyThreadsWalkAtOnce) {
     };
     std::vector<WalkPoint> alone, together(count);
     for (std::uint32_t i = 0; i < count; ++i) alone.push_back(walk(i));
-    ThreadExecutor(8).run(count, [&](std::uint32_t i) { together[i] = walk(i); });
+    ThreadPool(8).run(count, [&](std::uint32_t i) { together[i] = walk(i); });
     EXPECT_EQ(alone, together);
 }
 

@@ -3,7 +3,6 @@
 #include "tool/shared/meshes.hpp"
 #include "tool/shared/progress.hpp"
 #include "tool/shared/stopwatch.hpp"
-#include "tool/shared/threads.hpp"
 #include <abut/field/file.hpp>
 #include <abut/io/write_file.hpp>
 
@@ -102,7 +101,7 @@ Result<ExitCode> run(const FieldRequest& request) {
     Result<Source<D>> source = read<D>(request);
     if (!source) return source.problem();
     const double read_seconds = watch.lap();
-    Threads threads;
+    ThreadPool threads;
     FieldReport report;
     const Result<Field<D>> field = bake(request, *source, threads, report);
     if (!field) {
