@@ -35,9 +35,9 @@ void World<D>::add_if_near(std::uint32_t slot, std::uint32_t other) {
     if ((a.layers & b.mask) == 0 || (b.layers & a.mask) == 0) return;
     if (a.type == detail::ShapeType::half_space && b.type == detail::ShapeType::half_space) return;
     near_keys_.push_back(std::uint64_t{std::min(slot, other)} << slot_bits() | std::max(slot, other));
-    if (!filters_edges_ || !are_solid(slot, other)) return;
-    if (!a.fixed) edges_->count_partner(slot);
-    if (!b.fixed) edges_->count_partner(other);
+    if (!filters_edges_ || !are_neighbours(slot, other)) return;
+    if (!a.fixed) edges_->count_neighbour(slot);
+    if (!b.fixed) edges_->count_neighbour(other);
 }
 
 /// The number of bits of a slot in near_keys_.
@@ -46,7 +46,7 @@ int World<D>::slot_bits() const {
     return static_cast<int>(std::bit_width(items_.size()));
 }
 
-/// Writes the near pairs in the order of their ids, and lists the partners of the items whose contacts are filtered.
+/// Writes the near pairs in the order of their ids, and lists the neighbours of the items whose contacts are filtered.
 template <int D>
 void World<D>::sort_near() {
     sorted_near_keys_.reserve(near_keys_.capacity());
@@ -58,21 +58,20 @@ void World<D>::sort_near() {
     std::swap(near_, last_near_);
     near_.resize(near_keys_.size());
     const std::uint64_t low_bits = (std::uint64_t{1} << bits) - 1;
-    if (filters_edges_) edges_->place_partners();
+    if (filters_edges_) edges_->place_neighbours();
     for (std::size_t i = 0; i < near_.size(); ++i) {
         const auto a = static_cast<std::uint32_t>(sorted[i] >> bits);
         const auto b = static_cast<std::uint32_t>(sorted[i] & low_bits);
         near_[i] = {id_of(a), id_of(b)};
-        if (filters_edges_ && are_solid(a, b)) add_partners(a, b);
+        if (filters_edges_ && are_neighbours(a, b)) add_neighbours(a, b);
     }
 }
 
-/// Adds each of two items to the partners of the other one, if the other one's contacts are filtered.
+/// Adds each of two items to the neighbours of the other one, if the other one's contacts are filtered.
 template <int D>
-void World<D>::add_partners(std::uint32_t slot, std::uint32_t other) {
-    const Item &a = items_[slot], &b = items_[other];
-    if (!a.fixed) edges_->add_partner(slot, {b.place, b.fixed});
-    if (!b.fixed) edges_->add_partner(other, {a.place, a.fixed});
+void World<D>::add_neighbours(std::uint32_t slot, std::uint32_t other) {
+    if (!items_[slot].fixed) edges_->add_neighbour(slot, {other, box(other)});
+    if (!items_[other].fixed) edges_->add_neighbour(other, {slot, box(slot)});
 }
 
 /// Tests all near pairs. Items are in memory by slot, and so those of a pair far apart: those of later pairs are
@@ -138,7 +137,7 @@ template <int D>
 const View<D>& World<D>::first_placed(std::uint32_t slot) {
     if (first_.slot != slot) {
         first_.slot = slot;
-        first_.view = placed(items_[slot]);
+        std::construct_at(&first_.view, placed(items_[slot]));
     }
     return first_.view;
 }

@@ -410,7 +410,12 @@ private:
     void add_if_near(std::uint32_t slot, std::uint32_t other);
     int slot_bits() const;
     void sort_near();
-    void add_partners(std::uint32_t slot, std::uint32_t other);
+    /// Whether both items of a near pair are part of the surface that a third one touches. Sensors are not, and near by
+    /// their swept boxes alone is not enough.
+    bool are_neighbours(std::uint32_t slot, std::uint32_t other) const {
+        return !items_[slot].sensor && !items_[other].sensor && (!widened_ || overlaps(box(slot), box(other)));
+    }
+    void add_neighbours(std::uint32_t slot, std::uint32_t other);
     void test_near();
     void test_pair(const IdPair& pair);
     bool test_touch(const IdPair& pair);
@@ -421,10 +426,6 @@ private:
     bool test_shapes(const IdPair& pair);
     bool measure(const IdPair& pair, detail::BallEarlyOuts::Entry& entry);
     bool filters_edges(std::uint32_t slot) const;
-    /// Whether both items are part of the surface that a third one touches. Sensors are not.
-    bool are_solid(std::uint32_t slot, std::uint32_t other) const {
-        return !items_[slot].sensor && !items_[other].sensor;
-    }
     void reserve_edge_filter();
     void find_changed_neighbours();
     bool neighbours_changed(const IdPair& pair);
@@ -432,8 +433,6 @@ private:
                                    FunctionRef<double(const detail::ClosestPoint<D>&)> visit);
     bool is_center_covered(std::uint32_t slot);
     bool find_contact(const IdPair& pair);
-    bool has_neighbours(std::uint32_t slot);
-    bool has_partner_in(const Aabb<D>& near, std::uint32_t slot, std::uint32_t other) const;
     bool needs_filter(std::uint32_t slot);
     bool needs_filter(std::uint32_t slot, std::uint32_t other, const Contact<D>& contact, float side);
     bool find_surface_contacts(const IdPair& pair);

@@ -32,17 +32,6 @@ inline Floats from_second(Floats v) {
 inline Floats from_third(Floats v) {
     return __builtin_shufflevector(v, v, 2, 3, 2, 3);
 }
-/// Rows become columns.
-inline void transpose(Floats& a, Floats& b, Floats& c, Floats& d) {
-    const Floats ab_low = __builtin_shufflevector(a, b, 0, 4, 1, 5),
-                 ab_high = __builtin_shufflevector(a, b, 2, 6, 3, 7);
-    const Floats cd_low = __builtin_shufflevector(c, d, 0, 4, 1, 5),
-                 cd_high = __builtin_shufflevector(c, d, 2, 6, 3, 7);
-    a = __builtin_shufflevector(ab_low, cd_low, 0, 1, 4, 5);
-    b = __builtin_shufflevector(ab_low, cd_low, 2, 3, 6, 7);
-    c = __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5);
-    d = __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7);
-}
 /// Returns b in lanes where either is NaN.
 inline Floats max(Floats a, Floats b) {
 #ifdef __SSE2__

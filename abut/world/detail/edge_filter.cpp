@@ -7,7 +7,6 @@
 #include <abut/world/world.hpp>
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 namespace abut {
@@ -22,27 +21,6 @@ constexpr std::size_t max_listed_neighbours = 96;
 /// The filter looks for neighbours around a point at most this far away, in units of s by the radii of the bounding
 /// balls: 2.1 s, and s may be sqrt(3) times as large (see detail::size). The rest is for rounding.
 constexpr float probe_reach = 4;
-
-/// The boxes of partners. If another box is given, those that don't overlap it are null.
-template <int D>
-class PartnerBoxes {
-public:
-    PartnerBoxes(const std::array<const ItemBoxes<D>*, 2>& of, const Aabb<D>* box) : box_(box) {
-        for (std::size_t i = 0; i < 2; ++i) {
-            boxes_[i] = of[i]->boxes().data();
-            slots_[i] = of[i]->slots().data();
-        }
-    }
-    Neighbour<D> operator()(BoxIndex partner) const {
-        const Aabb<D>& found = boxes_[partner.kind()][partner.place()];
-        return {box_ == nullptr || overlaps(found, *box_) ? &found : nullptr, slots_[partner.kind()][partner.place()]};
-    }
-
-private:
-    std::array<const Aabb<D>*, 2> boxes_;
-    std::array<const std::uint32_t*, 2> slots_;
-    const Aabb<D>* box_;
-};
 
 }  // namespace
 
@@ -93,16 +71,19 @@ void World<D>::each_closest_point_beside(std::uint32_t slot, std::uint32_t other
                                  [&](const ClosestPoint<D>& closest) { return within = visit(closest); });
         return within > stop_visiting;
     };
-    auto& list = edges_->list_of(slot);
-    const std::uint32_t first = list.last_cover == other ? edges_->none : list.last_cover;
+    std::uint32_t& last_cover = edges_->search_of(slot).last_cover;
+    const std::uint32_t first = last_cover == other ? edges_->none : last_cover;
     if (first != edges_->none && !visit_item(first)) return;
     const Aabb<D> near = box_around(point, within);
-    if (list.size <= max_listed_neighbours) {
-        edges_->each_neighbour(list, near, [&](std::uint32_t neighbour) {
-            if (neighbour == other || neighbour == first || visit_item(neighbour)) return true;
-            list.last_cover = neighbour;
-            return false;
-        });
+    if (const std::span neighbours = edges_->neighbours_of(slot); neighbours.size() <= max_listed_neighbours) {
+        const typename Neighbour<D>::Query query(near);
+        for (const Neighbour<D>& neighbour : neighbours) {
+            if (!query.overlaps(neighbour) || neighbour.slot == other || neighbour.slot == first) continue;
+            if (!visit_item(neighbour.slot)) {
+                last_cover = neighbour.slot;
+                return;
+            }
+        }
         return;
     }
     const Item& item = items_[slot];
@@ -119,56 +100,34 @@ void World<D>::each_closest_point_beside(std::uint32_t slot, std::uint32_t other
     }
 }
 
-/// Whether a neighbour contains the centre of the item's AABB, without the margin of box(). Then the item is too deep
-/// in others to have a surface.
+/// Whether a neighbour contains the centre of the item's bounding ball. Then the item is too deep in others to have a
+/// surface.
 template <int D>
 bool World<D>::is_center_covered(std::uint32_t slot) {
-    auto& list = edges_->list_of(slot);
-    if (std::exchange(list.is_center_tested, true)) return list.is_center_covered;
-    const Vec<D> middle = center(items_[slot].stored.bounds(items_[slot].pose));
-    if (!edges_->each_neighbour(list, {middle, middle}, [](std::uint32_t) { return false; }))
-        each_closest_point_beside(slot, slot, DVec<D>(middle), 0, [&](const ClosestPoint<D>& closest) {
-            list.is_center_covered = closest.distance < 0;
-            return list.is_center_covered ? stop_visiting : 0.0;
+    NeighbourSearch<D>& search = edges_->search_of(slot);
+    if (std::exchange(search.is_center_tested, true)) return search.is_center_covered;
+    const BoundingBall<D> around = ball(items_[slot]);
+    if (std::isfinite(around.radius))
+        each_closest_point_beside(slot, slot, around.center, 0, [&](const ClosestPoint<D>& closest) {
+            search.is_center_covered = closest.distance < 0;
+            return search.is_center_covered ? stop_visiting : 0.0;
         });
-    return list.is_center_covered;
+    return search.is_center_covered;
 }
 
-/// Whether an item that is filtered has several neighbours, so that it may touch another one beside a contact. Not if
-/// its centre is known to be covered.
-template <int D>
-bool World<D>::has_neighbours(std::uint32_t slot) {
-    const PartnerBoxes<D> boxes({&moving_, &fixed_}, widened_ ? &box(slot) : nullptr);
-    const auto is_neighbour = [&](BoxIndex partner) { return boxes(partner).box != nullptr; };
-    const std::span partners = edges_->partners_of(slot);
-    // Partners by their swept boxes may be apart.
-    if (widened_ && std::count_if(partners.begin(), partners.end(), is_neighbour) < 2) return false;
-    const auto* const list = edges_->list_of(slot, boxes);
-    return list != nullptr && !list->is_center_covered;
-}
-
-/// Whether a composite contact of the item in `slot` needs the surface of its neighbours.
+/// Whether a composite contact of the item in `slot` needs the surface of its neighbours: it has several, so that it
+/// may touch another one beside the contact.
 template <int D>
 bool World<D>::needs_filter(std::uint32_t slot) {
-    return has_neighbours(slot) && !is_center_covered(slot);
-}
-
-/// Whether the AABB of a partner other than this one overlaps a box. It needs no list of neighbours.
-template <int D>
-bool World<D>::has_partner_in(const Aabb<D>& near, std::uint32_t slot, std::uint32_t other) const {
-    const PartnerBoxes<D> boxes({&moving_, &fixed_}, &near);
-    for (const BoxIndex partner : edges_->partners_of(slot)) {
-        const Neighbour<D> found = boxes(partner);
-        if (found.box != nullptr && found.slot != other) return true;
-    }
-    return false;
+    return edges_->neighbours_of(slot).size() >= 2 && !is_center_covered(slot);
 }
 
 /// Whether the item in `slot` needs the surface of its neighbours for a contact with another item: there is one near
 /// each of the deepest points. `side` is 1 if the item is A, and -1 if it is B.
 template <int D>
 bool World<D>::needs_filter(std::uint32_t slot, std::uint32_t other, const Contact<D>& contact, float side) {
-    if (edges_->partners_of(slot).size() < 2) return false;
+    const std::span neighbours = edges_->neighbours_of(slot);
+    if (neighbours.size() < 2 || edges_->is_center_known_covered(slot)) return false;
     const float s = static_cast<float>(surface_probe_scale) *
                     std::min(items_[slot].local_ball.radius, items_[other].local_ball.radius);
     // All points are within the smaller item, and so near the first one.
@@ -176,22 +135,17 @@ bool World<D>::needs_filter(std::uint32_t slot, std::uint32_t other, const Conta
     float reach = probe_reach * s + rounding * std::abs(contact.depth);
     for (int i = 0; i < D; ++i) reach += rounding * std::abs(contact.points[0].position[i]);
     const Vec<D> to_surface = contact.normal * (-0.5f * side);
-    const auto box_near = [&](const ContactPoint<D>& point) -> Aabb<D> {
-        const Vec<D> on_surface = point.position + to_surface * point.depth;
-        return {on_surface - reach, on_surface + reach};
-    };
-    if (!edges_->has_list(slot)) {
-        Aabb<D> near = box_near(contact.points[0]);
-        for (const ContactPoint<D>& point : contact.points) near = merged(near, box_near(point));
-        if (!has_partner_in(near, slot, other)) return false;
-    }
-    if (!has_neighbours(slot)) return false;
-    const auto& list = edges_->list_of(slot);
     const float min_depth = contact.depth - static_cast<float>(0.5 * deepest_tolerance) * s;
-    const auto is_alone = [&](const ContactPoint<D>& point) {
-        return !(point.depth < min_depth) && !edges_->has_neighbour(list, box_near(point), other);
-    };
-    return std::none_of(contact.points.begin(), contact.points.end(), is_alone) && !is_center_covered(slot);
+    for (const ContactPoint<D>& point : contact.points) {
+        if (point.depth < min_depth) continue;
+        const Vec<D> on_surface = point.position + to_surface * point.depth;
+        const typename Neighbour<D>::Query near({on_surface - reach, on_surface + reach});
+        bool is_alone = true;
+        for (const Neighbour<D>& neighbour : neighbours)
+            is_alone &= !near.overlaps(neighbour) | (neighbour.slot == other);
+        if (is_alone) return false;
+    }
+    return !is_center_covered(slot);
 }
 
 /// Calls use(neighbours) with what the items in two slots touch beside each other.
@@ -276,8 +230,8 @@ void World<D>::filter_contacts() {
         const View<D>& placed_a = first_placed(a);
         const View<D> placed_b = placed_view(b);  // a copy: the neighbours may take its place in the cache
         with_neighbours(a, b, unfiltered.for_a, unfiltered.for_b, [&](NeighbourSurfaces<D> neighbours) {
-            if (unfiltered.for_a) neighbours.nearest_to_a = &edges_->nearest_of(edges_->list_of(a));
-            if (unfiltered.for_b) neighbours.nearest_to_b = &edges_->nearest_of(edges_->list_of(b));
+            if (unfiltered.for_a) neighbours.nearest_to_a = &edges_->search_of(a).nearest_to_center;
+            if (unfiltered.for_b) neighbours.nearest_to_b = &edges_->search_of(b).nearest_to_center;
             set_found(unfiltered.found,
                       filtered_contact(placed_a, placed_b, unfiltered.deepest.contact, found.contact, neighbours));
         });

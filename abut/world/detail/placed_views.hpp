@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <type_traits>
 #include <vector>
 
 namespace abut::detail {
@@ -35,13 +37,14 @@ public:
         const std::size_t place = slot % count;
         if (slots_[place] != slot) {
             slots_[place] = slot;
-            views_[place] = make();
+            std::construct_at(&views_[place], make());
         }
         return views_[place];
     }
     void clear() { std::fill(slots_.begin(), slots_.end(), none); }
 
 private:
+    static_assert(std::is_trivially_destructible_v<View<D>>);
     static constexpr std::uint32_t none = 0xFFFFFFFF;
     /// They fit in the second cache of common processors.
     static constexpr std::size_t count = 1024;

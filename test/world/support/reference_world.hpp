@@ -10,6 +10,7 @@
 #include <abut/world/world.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <map>
 #include <tuple>
@@ -238,7 +239,9 @@ private:
     }
     bool is_filtered(const Entry& item) const {
         if (item.second.options.fixed) return false;
-        const detail::DVec<D> middle(center(detail::bounds(item.second.view())));
+        const auto ball = detail::SmallBall<D>::around(detail::bounding_ball(item.second.placed({})));
+        if (!std::isfinite(ball.radius)) return true;
+        const detail::DVec<D> middle = detail::affine(item.second.options.pose).point(detail::DVec<D>(ball.center));
         bool covered = false;
         others(item, item)(middle, 0, [&](const detail::ClosestPoint<D>& closest) {
             covered = covered || closest.distance < 0;

@@ -117,6 +117,11 @@ ClosestPoint<D> closest_point_on(const AnyPart<D>& part, const DVec<D>& point) {
 
 template <int D>
 void each_closest_point_on(const View<D>& shape, const DVec<D>& point, double within, ClosestPointVisitor<D> visit) {
+    if (const auto* convex = std::get_if<Convex<D>>(&shape)) {
+        ClosestPoint<D> closest;
+        if (find_closest_point(*convex, point, within, closest)) visit(closest);
+        return;
+    }
     for_each_part(shape, box_around(point, within), [&](const Part<D>& part, std::uint32_t) {
         ClosestPoint<D> closest;
         if (find_closest_point(part, point, within, closest)) within = visit(closest);
