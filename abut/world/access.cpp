@@ -9,17 +9,21 @@ template <int D>
 ItemOptions<D> World<D>::options(Id id) const {
     const Item* item = find(id);
     ABUT_ASSERT(item != nullptr);
-    if (item == nullptr) return {.layers = 0, .mask = 0};
+    if (item == nullptr) return {.layers = 0, .mask = 0, .enabled = false};
     return item->options();
 }
 
 template <int D>
-std::uint32_t World<D>::layers(Id id) const {
+std::uint64_t World<D>::layers(Id id) const {
     return options(id).layers;
 }
 template <int D>
-std::uint32_t World<D>::mask(Id id) const {
+std::uint64_t World<D>::mask(Id id) const {
     return options(id).mask;
+}
+template <int D>
+std::int32_t World<D>::group(Id id) const {
+    return options(id).group;
 }
 template <int D>
 bool World<D>::is_fixed(Id id) const {
@@ -32,6 +36,10 @@ bool World<D>::is_sensor(Id id) const {
 template <int D>
 bool World<D>::is_continuous(Id id) const {
     return options(id).continuous;
+}
+template <int D>
+bool World<D>::is_enabled(Id id) const {
+    return options(id).enabled;
 }
 
 template <int D>
@@ -73,6 +81,26 @@ void World<D>::set_continuous(Id id, bool continuous) {
         ++continuous_;
     else
         --continuous_;
+}
+
+template <int D>
+void World<D>::set_group(Id id, std::int32_t group) {
+    Item* item = find(id);
+    ABUT_ASSERT(item != nullptr);
+    if (item == nullptr || item->group == group) return;
+    item->group = group;
+    mark_pending(id.index - 1);
+}
+
+template <int D>
+void World<D>::set_enabled(Id id, bool enabled) {
+    Item* item = find(id);
+    ABUT_ASSERT(item != nullptr);
+    if (item == nullptr || item->enabled == enabled) return;
+    item->enabled = enabled;
+    item->settled = false;
+    item->previous = none;
+    update_box(id.index - 1);
 }
 
 template <int D>

@@ -19,7 +19,8 @@ bool World<D>::passes(std::uint32_t slot, const Filter& filter) const {
     if ((filter.layers & item.mask) == 0 || (item.layers & filter.mask) == 0) return false;
     const Id id = id_of(slot);
     const std::span<const Id> ignored = filter.ignore_ids;
-    return id != filter.ignore && std::find(ignored.begin(), ignored.end(), id) == ignored.end();
+    return id != filter.ignore && std::find(ignored.begin(), ignored.end(), id) == ignored.end() &&
+           (!filter.accepts || (*filter.accepts)(id));
 }
 
 /// Calls visit(slot) for the items whose AABBs overlap a box; it returns false to stop.

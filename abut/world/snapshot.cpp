@@ -1,6 +1,6 @@
 // Saving a world and going back. All is in words of 32 bits, little endian: "abutwld\n", the version, the dimension,
-// the numbers of slots, free slots, motions, touching pairs, touching pairs with a removed item, and passed pairs;
-// these lists in this order, each item in the order of its slot; and a checksum of 64 bits.
+// the numbers of slots, free slots, motions, rare filters, touching pairs, touching pairs with a removed item, and
+// passed pairs; these lists in this order, each item in the order of its slot; and a checksum of 64 bits.
 
 #include <abut/broad_phase/boxes.hpp>
 #include <abut/math/detail/blob.hpp>
@@ -18,10 +18,11 @@ using namespace detail;
 namespace {
 
 constexpr std::uint32_t magic[2] = {0x74756261, 0x0a646c77};  // "abutwld\n"
-constexpr std::uint32_t version = 1;
+constexpr std::uint32_t version = 2;
 constexpr std::size_t checksum_sums = 4;
 
-constexpr std::uint32_t fixed_flag = 1, sensor_flag = 2, continuous_flag = 4, settled_flag = 8, all_flags = 15;
+constexpr std::uint32_t fixed_flag = 1, sensor_flag = 2, continuous_flag = 4, settled_flag = 8, disabled_flag = 16,
+                        upper_mask_flag = 32, all_flags = 63;
 
 template <int D>
 inline constexpr std::size_t pose_words = D == 2 ? 4 : 7;
@@ -30,21 +31,46 @@ inline constexpr std::size_t item_words = pose_words<D> + 8;
 
 /// The numbers of list entries in a snapshot.
 struct SnapshotSizes {
-    std::uint32_t slots = 0, free = 0, motions = 0, touching = 0, stale = 0, passed = 0;
+    std::uint32_t slots = 0, free = 0, motions = 0, rare_filters = 0, touching = 0, stale = 0, passed = 0;
 
     template <class Visit>
     void each(Visit visit) {
-        for (std::uint32_t* size : {&slots, &free, &motions, &touching, &stale, &passed}) visit(*size);
+        for (std::uint32_t* size : {&slots, &free, &motions, &rare_filters, &touching, &stale, &passed}) visit(*size);
     }
     /// Without the checksum.
     template <int D>
     std::uint64_t words() const {
-        constexpr std::uint64_t header = 10;
+        constexpr std::uint64_t header = 11;
         return header + 2 * std::uint64_t{free} + item_words<D> * (std::uint64_t{slots} - free) +
-               (1 + pose_words<D>)*std::uint64_t{motions} + 2 * std::uint64_t{touching} +
-               4 * (std::uint64_t{stale} + passed);
+               (1 + pose_words<D>)*std::uint64_t{motions} + 4 * std::uint64_t{rare_filters} +
+               2 * std::uint64_t{touching} + 4 * (std::uint64_t{stale} + passed);
     }
 };
+
+/// The upper halves of an item's layers and mask, and its group, where they are not what most items have: no upper
+/// layers, all or none of the upper mask, and no group.
+struct RareFilter {
+    std::uint32_t slot = 0, layers = 0, mask = 0;
+    std::int32_t group = 0;
+};
+
+constexpr std::uint32_t all_upper = 0xFFFFFFFF;
+
+std::uint32_t upper(std::uint64_t bits) {
+    return static_cast<std::uint32_t>(bits >> 32);
+}
+std::uint32_t lower(std::uint64_t bits) {
+    return static_cast<std::uint32_t>(bits);
+}
+std::uint64_t joined(std::uint32_t lower, std::uint32_t upper) {
+    return lower | std::uint64_t{upper} << 32;
+}
+
+template <class Item>
+bool has_rare_filter(const Item& item) {
+    const std::uint32_t mask = upper(item.mask);
+    return upper(item.layers) != 0 || (mask != 0 && mask != all_upper) || item.group != 0;
+}
 
 /// Writes into a buffer of known size, where BlobWriter would append each word.
 class WordWriter {
@@ -138,6 +164,8 @@ void World<D>::save(std::vector<std::byte>& bytes) {
     sizes.slots = static_cast<std::uint32_t>(items_.size());
     sizes.free = static_cast<std::uint32_t>(free_.size());
     sizes.motions = static_cast<std::uint32_t>(std::count_if(pending_.begin(), pending_.end(), has_motion));
+    const auto has_rare = [](const Item& item) { return item.in_use && has_rare_filter(item); };
+    sizes.rare_filters = static_cast<std::uint32_t>(std::count_if(items_.begin(), items_.end(), has_rare));
     sizes.stale = static_cast<std::uint32_t>(std::count_if(touching_.begin(), touching_.end(), is_stale));
     sizes.touching = static_cast<std::uint32_t>(touching_.size()) - sizes.stale;
     sizes.passed = static_cast<std::uint32_t>(passed_.size());
@@ -152,14 +180,19 @@ void World<D>::save(std::vector<std::byte>& bytes) {
         const Item& item = items_[slot];
         if (!item.in_use) continue;
         writer.put(item.pose);
-        writer.put(item.user, shape_hashes_[slot], item.layers, item.mask, item.generation,
+        writer.put(item.user, shape_hashes_[slot], lower(item.layers), lower(item.mask), item.generation,
                    (item.fixed ? fixed_flag : 0) | (item.sensor ? sensor_flag : 0) |
-                       (item.continuous ? continuous_flag : 0) | (item.settled ? settled_flag : 0));
+                       (item.continuous ? continuous_flag : 0) | (item.settled ? settled_flag : 0) |
+                       (item.enabled ? 0 : disabled_flag) | (upper(item.mask) != 0 ? upper_mask_flag : 0));
     }
     for (std::uint32_t slot = 0; sizes.motions > 0 && slot < items_.size(); ++slot) {
         if (!has_motion(slot)) continue;
         writer.put(slot);
         writer.put(previous_poses_[items_[slot].previous]);
+    }
+    for (std::uint32_t slot = 0; sizes.rare_filters > 0 && slot < items_.size(); ++slot) {
+        const Item& item = items_[slot];
+        if (has_rare(item)) writer.put(slot, upper(item.layers), upper(item.mask), item.group);
     }
     for (const IdPair& pair : touching_)
         if (!is_stale(pair)) writer.put(pair.a.index - 1, pair.b.index - 1);
@@ -182,6 +215,11 @@ struct World<D>::Snapshot {
         ItemOptions<D> options;
 
         bool is_settled() const { return (flags & settled_flag) != 0; }
+        void set_filter(const RareFilter& rare) {
+            options.layers = joined(lower(options.layers), rare.layers);
+            options.mask = joined(lower(options.mask), rare.mask);
+            options.group = rare.group;
+        }
     };
     struct SavedMotion {
         std::uint32_t slot = 0;
@@ -195,8 +233,13 @@ struct World<D>::Snapshot {
     std::optional<Problem> read(std::span<const std::byte> bytes);
     template <class Visit>
     void each_item(const Visit& visit) const {
-        for (std::uint32_t slot = 0; slot < slots; ++slot)
-            if (place_[slot] != none) visit(item(slot));
+        auto rare = rare_filters_.begin();
+        for (std::uint32_t slot = 0; slot < slots; ++slot) {
+            if (place_[slot] == none) continue;
+            SavedItem saved = item(slot);
+            if (rare != rare_filters_.end() && rare->slot == slot) saved.set_filter(*rare++);
+            visit(saved);
+        }
     }
 
 private:
@@ -207,7 +250,11 @@ private:
         SavedItem item;
         item.slot = slot;
         get(reader, item.options.pose);
-        get(reader, item.options.user, item.hash, item.options.layers, item.options.mask, item.generation, item.flags);
+        std::uint32_t layers = 0, mask = 0;
+        get(reader, item.options.user, item.hash, layers, mask, item.generation, item.flags);
+        item.options.layers = layers;
+        item.options.mask = joined(mask, (item.flags & upper_mask_flag) != 0 ? all_upper : 0);
+        item.options.enabled = (item.flags & disabled_flag) == 0;
         item.options.fixed = (item.flags & fixed_flag) != 0;
         item.options.sensor = (item.flags & sensor_flag) != 0;
         item.options.continuous = (item.flags & continuous_flag) != 0;
@@ -215,6 +262,7 @@ private:
     }
 
     std::span<const std::byte> items_;  // the records
+    std::vector<RareFilter> rare_filters_;
     std::vector<std::uint32_t> place_;  // by slot: the index of its record; none if it is free
 };
 
@@ -267,6 +315,11 @@ bool World<D>::Snapshot::read_lists(std::span<const std::byte> lists, const Snap
         get(reader, motion.previous);
         if (!has_item(motion.slot) || !item(motion.slot).is_settled()) return false;
         if (i > 0 && motions[i - 1].slot >= motion.slot) return false;
+    }
+    for (std::uint32_t i = 0; i < sizes.rare_filters; ++i) {
+        RareFilter& rare = rare_filters_.emplace_back();
+        get(reader, rare.slot, rare.layers, rare.mask, rare.group);
+        if (!has_item(rare.slot) || (i > 0 && rare_filters_[i - 1].slot >= rare.slot)) return false;
     }
     touching.reserve(std::size_t{sizes.touching} + sizes.stale);
     for (std::uint32_t i = 0; i < sizes.touching; ++i) {
@@ -336,7 +389,8 @@ template <int D>
 template <class SavedItem>
 void World<D>::restore_item(const SavedItem& saved) {
     Item& item = items_[saved.slot];
-    const bool is_new = !item.in_use, has_box = !is_new && item.pose == saved.options.pose;
+    const bool is_new = !item.in_use;
+    const bool has_box = !is_new && item.pose == saved.options.pose && item.enabled == saved.options.enabled;
     if (!is_new) continuous_ -= item.continuous ? 1 : 0;
     item.set(saved.options);
     item.generation = saved.generation;
@@ -350,7 +404,7 @@ void World<D>::restore_item(const SavedItem& saved) {
         set_shape_data(item);
         add_to_boxes(saved.slot);
     }
-    if (!has_box) boxes_of(item).set(item.place, item.stored.bounds_for_queries(item.pose));
+    if (!has_box) boxes_of(item).set(item.place, item.bounds());
 }
 
 template <int D>

@@ -27,17 +27,28 @@ void World<D>::refresh_now() {
     if (fixed_.changed()) fixed_.refresh(queries_per_fixed_item);
 }
 
-/// Adds a pair whose boxes in the broad phases overlap to near_, if its boxes are near and its layers agree.
+/// Whether two items pair where they are near.
+template <int D>
+bool World<D>::may_pair(std::uint32_t slot, std::uint32_t other) const {
+    return items_[slot].may_pair(items_[other]) &&
+           (!pair_filter_ || pair_filter_(id_of(std::min(slot, other)), id_of(std::max(slot, other))));
+}
+
+/// Whether a pair filter has just begun to accept a near pair.
+template <int D>
+bool World<D>::has_new_answer(const IdPair& pair) const {
+    return filters_pairs_ && !std::binary_search(last_near_.begin(), last_near_.end(), pair);
+}
+
+/// Adds a pair whose boxes in the broad phases overlap to near_, if its boxes are near.
 template <int D>
 void World<D>::add_if_near(std::uint32_t slot, std::uint32_t other) {
     if (widened_ && !may_touch(slot, other)) return;
-    const Item &a = items_[slot], &b = items_[other];
-    if ((a.layers & b.mask) == 0 || (b.layers & a.mask) == 0) return;
-    if (a.type == detail::ShapeType::half_space && b.type == detail::ShapeType::half_space) return;
+    if (!may_pair(slot, other)) return;
     near_keys_.push_back(std::uint64_t{std::min(slot, other)} << slot_bits() | std::max(slot, other));
     if (!filters_edges_ || !are_neighbours(slot, other)) return;
-    if (!a.fixed) edges_->count_neighbour(slot);
-    if (!b.fixed) edges_->count_neighbour(other);
+    if (!items_[slot].fixed) edges_->count_neighbour(slot);
+    if (!items_[other].fixed) edges_->count_neighbour(other);
 }
 
 /// The number of bits of a slot in near_keys_.
@@ -87,11 +98,11 @@ void World<D>::test_near() {
     }
 }
 
-/// Tests a near pair. If neither item changed, the last result is repeated.
+/// Tests a near pair. If nothing changed, the last result is repeated.
 template <int D>
 void World<D>::test_pair(const IdPair& pair) {
     const Item &a = items_[pair.a.index - 1], &b = items_[pair.b.index - 1];
-    if (!a.pending && !b.pending) return repeat_last(pair);
+    if (!a.pending && !b.pending && !has_new_answer(pair)) return repeat_last(pair);
     ++counts_.tested;
     // A pair may be near by its swept boxes alone; it touches only if the present boxes overlap.
     const bool touch = (!widened_ || overlaps(box(pair.a.index - 1), box(pair.b.index - 1))) && test_touch(pair);
@@ -254,6 +265,7 @@ Events World<D>::find_events() {
     pending_.clear();
     previous_poses_.clear();
     swept_boxes_.clear();
+    filters_pairs_ = pair_filter_ != nullptr;
     return {began_, stayed_, ended_, fractions_};
 }
 

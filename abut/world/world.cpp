@@ -93,7 +93,7 @@ void World<D>::move_to(Id id, const Pose<D>& pose) {
 }
 
 template <int D>
-void World<D>::set_filter(Id id, std::uint32_t layers, std::uint32_t mask) {
+void World<D>::set_filter(Id id, std::uint64_t layers, std::uint64_t mask) {
     Item* item = find(id);
     ABUT_ASSERT(item != nullptr);
     if (item == nullptr) return;
@@ -127,7 +127,7 @@ void World<D>::free_slot(std::uint32_t slot) {
 template <int D>
 void World<D>::update_box(std::uint32_t slot) {
     Item& item = items_[slot];
-    const Aabb<D> box = item.stored.bounds_for_queries(item.pose);
+    const Aabb<D> box = item.bounds();
     ABUT_ASSERT(!is_empty(box) || is_finite(placed(item)));
     boxes_of(item).set(item.place, box);
     mark_pending(slot);

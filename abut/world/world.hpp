@@ -9,7 +9,6 @@
 #include <abut/math/result.hpp>
 #include <abut/query/raycast.hpp>
 #include <abut/shape/any_shape.hpp>
-#include <abut/world/detail/bounding_ball.hpp>
 #include <abut/world/detail/edge_filter_memory.hpp>
 #include <abut/world/detail/found_contacts.hpp>
 #include <abut/world/detail/item_boxes.hpp>
@@ -19,10 +18,12 @@
 #include <abut/world/detail/released_shapes.hpp>
 #include <abut/world/detail/swept_box.hpp>
 #include <abut/world/detail/why_no_sweep.hpp>
+#include <abut/world/detail/world_item.hpp>
 #include <abut/world/options.hpp>
 #include <abut/world/results.hpp>
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -92,7 +93,7 @@ public:
     auto move(Id id, const P& position);
     /// Moves many items; as many poses as ids.
     void move(std::span<const Id> ids, std::span<const Pose<D>> poses);
-    void set_filter(Id id, std::uint32_t layers, std::uint32_t mask);
+    void set_filter(Id id, std::uint64_t layers, std::uint64_t mask);
     void remove(Id id);
 
     bool contains(Id id) const;
@@ -107,11 +108,13 @@ public:
 
     // The present values of an item's options.
     ItemOptions<D> options(Id id) const;
-    std::uint32_t layers(Id id) const;
-    std::uint32_t mask(Id id) const;
+    std::uint64_t layers(Id id) const;
+    std::uint64_t mask(Id id) const;
+    std::int32_t group(Id id) const;
     bool is_fixed(Id id) const;
     bool is_sensor(Id id) const;
     bool is_continuous(Id id) const;
+    bool is_enabled(Id id) const;
 
     // Queries see a change at once. The next update treats a pair as if the item had always had the new option: a pair
     // that still touches has stayed, even if it gained or lost its contact.
@@ -122,10 +125,23 @@ public:
     void set_sensor(Id id, bool sensor);
     /// The change applies to the motion since the last update as well.
     void set_continuous(Id id, bool continuous);
+    void set_group(Id id, std::int32_t group);
+    /// The pairs of an item that is no longer enabled end. One that is enabled again begins at its present pose.
+    void set_enabled(Id id, bool enabled);
+
+    /// From the next update on, two items pair only if `accepts(a, b)` returns true, a < b, besides all other
+    /// conditions. It is called for near pairs in an unspecified order, may be called several times in one update, and
+    /// must then give one answer and not change the world. Its answers may change from update to update. Empty: all
+    /// pairs. A snapshot doesn't contain it.
+    void set_pair_filter(std::function<bool(Id a, Id b)> accepts) {
+        pair_filter_ = std::move(accepts);
+        filters_pairs_ = true;
+    }
 
     /// A snapshot for `restore`: ids, poses, options, user data, the touching pairs and the motion since the last
     /// update. Shapes are named by their hashes. Equal worlds have equal snapshots, on every machine. In 3D 60 bytes an
-    /// item, 48 in 2D; 8 for a touching pair; 32 (20 in 2D) for an item that moved since the last update.
+    /// item, 48 in 2D; 8 for a touching pair; 32 (20 in 2D) for an item that moved since the last update; 16 for one
+    /// in a group, or with layers, or some of the mask, above the first 32.
     ///
     /// The first save after a shape was added takes time linear in the number of the shape's parts.
     std::vector<std::byte> save();
@@ -316,33 +332,7 @@ private:
     static constexpr std::uint32_t none = 0xFFFFFFFF;
     /// Fixed items change seldom, and each moving item queries them once in an update.
     static constexpr double queries_per_fixed_item = 1;
-    /// 88 bytes in 3D and 72 in 2D: members that are read together lie together.
-    struct Item {
-        AnyShape<D> stored;  // empty in a free slot
-        std::uint64_t user = 0;
-        Pose<D> pose{};
-        detail::SmallBall<D> local_ball{};  // in the shape's own frame
-        std::uint32_t layers = 1, mask = 0xffffffff;
-        std::uint32_t generation = 0;
-        std::uint32_t place = 0;        // the place of its box in fixed_ or moving_
-        std::uint32_t previous = none;  // index in previous_poses_; none if not moved since the last update
-        detail::ShapeType type{};
-        bool in_use = false;  // false if the slot is free
-        bool fixed = false, sensor = false, continuous = false;
-        bool pending = false;  // changed since the last update
-        bool settled = false;  // present at the last update with this shape
-
-        ItemOptions<D> options() const { return {pose, user, layers, mask, fixed, sensor, continuous}; }
-        void set(const ItemOptions<D>& options) {
-            pose = options.pose;
-            user = options.user;
-            layers = options.layers;
-            mask = options.mask;
-            fixed = options.fixed;
-            sensor = options.sensor;
-            continuous = options.continuous;
-        }
-    };
+    using Item = detail::WorldItem<D>;
 
     static View<D> point_view(const Vec<D>& point) {
         detail::clear_upper_halves();
@@ -407,7 +397,9 @@ private:
     void widen_boxes();
     detail::SweptBox<D> swept_box_of(std::uint32_t slot) const;
     bool may_touch(std::uint32_t slot, std::uint32_t other) const;
+    bool may_pair(std::uint32_t slot, std::uint32_t other) const;
     void add_if_near(std::uint32_t slot, std::uint32_t other);
+    bool has_new_answer(const IdPair& pair) const;
     int slot_bits() const;
     void sort_near();
     /// Whether both items of a near pair are part of the surface that a third one touches. Sensors are not, and near by
@@ -481,6 +473,8 @@ private:
     mutable detail::QueryCount query_count_;  // since the last update
     double queries_per_item_ = 0;             // running mean of queries per update and moving item
     bool filters_edges_ = true;
+    std::function<bool(Id, Id)> pair_filter_;
+    bool filters_pairs_ = false;               // there is a pair filter, or was at the last update
     std::vector<std::uint64_t> shape_hashes_;  // by slot; 0: not known; the vector may be shorter than items_
     detail::ReleasedShapes<D> released_shapes_;
 

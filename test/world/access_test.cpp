@@ -47,7 +47,9 @@ TYPED_TEST_SUITE(Access, Dimensions);
 TYPED_TEST(Access, GettersReturnWhatWasGivenAndSet) {
     const Id plain = this->add(0);
     EXPECT_EQ(this->world.layers(plain), 1u);
-    EXPECT_EQ(this->world.mask(plain), 0xffffffffu);
+    EXPECT_EQ(this->world.mask(plain), ~std::uint64_t{0});
+    EXPECT_EQ(this->world.group(plain), 0);
+    EXPECT_TRUE(this->world.is_enabled(plain));
     EXPECT_FALSE(this->world.is_fixed(plain) || this->world.is_sensor(plain) || this->world.is_continuous(plain));
     const Id all = this->add(5, {.user = 7, .layers = 6, .mask = 9, .fixed = true, .sensor = true, .continuous = true});
     const auto options = this->world.options(all);

@@ -126,6 +126,8 @@ void check_items(const Simulation<D>& game) {
         ASSERT_EQ(world.is_fixed(id), item.options.fixed);
         ASSERT_EQ(world.is_sensor(id), item.options.sensor);
         ASSERT_EQ(world.is_continuous(id), item.options.continuous);
+        ASSERT_EQ(world.group(id), item.options.group);
+        ASSERT_EQ(world.is_enabled(id), item.options.enabled);
     }
     std::vector<Id> all;
     world.each_item([&](Id id) { all.push_back(id); });
@@ -272,7 +274,7 @@ void play_continuous(std::uint64_t seed) {
             play<D>(seed++, 10, frames, lattice, seen, 1);
         }
         for (const int count : {seen.began, seen.ended, seen.passed, seen.on_the_way - seen.passed})
-            EXPECT_GT(count, oracle::case_count(frames / 6));
+            EXPECT_GT(count, oracle::case_count(frames / 8));
     }
 }
 

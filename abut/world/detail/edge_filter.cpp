@@ -22,6 +22,20 @@ constexpr std::size_t max_listed_neighbours = 96;
 /// balls: 2.1 s, and s may be sqrt(3) times as large (see detail::size). The rest is for rounding.
 constexpr float probe_reach = 4;
 
+/// Calls visit(pair) for the pairs that only one of two sorted lists has.
+template <class Visit>
+void each_difference(const std::vector<IdPair>& first, const std::vector<IdPair>& second, const Visit& visit) {
+    auto a = first.begin(), b = second.begin();
+    while (a != first.end() || b != second.end()) {
+        if (b == second.end() || (a != first.end() && *a < *b))
+            visit(*a++);
+        else if (a == first.end() || *b < *a)
+            visit(*b++);
+        else
+            ++a, ++b;
+    }
+}
+
 }  // namespace
 
 /// Whether contacts of the item are filtered for its sake. A fixed item is not pushed, so no normal matters to it.
@@ -52,6 +66,12 @@ void World<D>::find_changed_neighbours() {
             if (items_[a].pending) changed[b] = true;
             if (items_[b].pending) changed[a] = true;
         }
+    if (!filters_pairs_) return;
+    // A pair filter may change its answer for items that did not change.
+    each_difference(near_, last_near_, [&](const IdPair& pair) {
+        changed[pair.a.index - 1] = true;
+        changed[pair.b.index - 1] = true;
+    });
 }
 
 /// Whether an item near one of the two has changed.
@@ -86,15 +106,11 @@ void World<D>::each_closest_point_beside(std::uint32_t slot, std::uint32_t other
         }
         return;
     }
-    const Item& item = items_[slot];
-    const Filter filter{.layers = item.layers, .mask = item.mask};
     for (const detail::ItemBoxes<D>* items : {&moving_, &fixed_}) {
         if (within == stop_visiting) return;
         items->phase().each_overlapping(near, [&](std::uint32_t place) {
             const std::uint32_t found = items->slot(place);
-            if (found == slot || found == other || !passes(found, filter) || !overlaps(box(found), box(slot)))
-                return true;
-            if (items_[found].type == ShapeType::half_space && item.type == ShapeType::half_space) return true;
+            if (found == slot || found == other || !are_neighbours(slot, found) || !may_pair(slot, found)) return true;
             return visit_item(found);
         });
     }

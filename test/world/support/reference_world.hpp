@@ -45,7 +45,7 @@ public:
         if (item.settled && !item.before) item.before = item.options.pose;
         item.options.pose = pose;
     }
-    void set_filter(Id id, std::uint32_t layers, std::uint32_t mask) {
+    void set_filter(Id id, std::uint64_t layers, std::uint64_t mask) {
         Item& item = items_.at(id);
         item.options.layers = layers;
         item.options.mask = mask;
@@ -55,6 +55,15 @@ public:
     void set_fixed(Id id, bool fixed) { set(id, items_.at(id).options.fixed, fixed); }
     void set_sensor(Id id, bool sensor) { set(id, items_.at(id).options.sensor, sensor); }
     void set_continuous(Id id, bool continuous) { items_.at(id).options.continuous = continuous; }
+    void set_group(Id id, std::int32_t group) { set(id, items_.at(id).options.group, group); }
+    void set_enabled(Id id, bool enabled) {
+        Item& item = items_.at(id);
+        if (item.options.enabled == enabled) return;
+        item.options.enabled = enabled;
+        item.changed = true;
+        item.settled = false;
+        item.before.reset();
+    }
     void remove(Id id) { items_.erase(id); }
 
     const std::map<Id, Item>& items() const { return items_; }
@@ -85,6 +94,7 @@ public:
         impacts.clear();
         for (const auto& [pair, hit] : impacts_) impacts.push_back({pair.a, pair.b, hit});
         passed = passed_.size();
+        pair_filter_changed = false;
         for (auto& [id, item] : items_) {
             item.changed = false;
             item.settled = true;
@@ -152,9 +162,13 @@ public:
 
     static bool passes(Id id, const Item& item, const Filter& filter) {
         return (filter.layers & item.options.mask) != 0 && (item.options.layers & filter.mask) != 0 &&
-               (filter.sensors || !item.options.sensor) && id != filter.ignore &&
-               std::count(filter.ignore_ids.begin(), filter.ignore_ids.end(), id) == 0;
+               (filter.sensors || !item.options.sensor) && id != filter.ignore && item.options.enabled &&
+               std::count(filter.ignore_ids.begin(), filter.ignore_ids.end(), id) == 0 &&
+               (!filter.accepts || (*filter.accepts)(id));
     }
+
+    std::function<bool(Id, Id)> pair_filter;
+    bool pair_filter_changed = false;
 
     std::vector<IdPair> began, stayed, ended;
     std::vector<float> fractions;
@@ -165,7 +179,8 @@ public:
     UpdateCounts min_counts, max_counts;  ///< bounds of the world's counts, whose boxes have margins
 
 private:
-    void set(Id id, bool& option, bool value) {
+    template <class T>
+    void set(Id id, T& option, T value) {
         items_.at(id).changed = items_.at(id).changed || option != value;
         option = value;
     }
@@ -176,6 +191,15 @@ private:
         return [owned_shape](const Pose<D>& pose) -> View<D> { return abut::view(at(*owned_shape, pose)); };
     }
 
+    using Entry = std::pair<const Id, Item>;
+
+    bool may_pair(const Entry& a, const Entry& b) const {
+        const ItemOptions<D>&p = a.second.options, &q = b.second.options;
+        if (!p.enabled || !q.enabled || both_half_spaces(a.second.view(), b.second.view())) return false;
+        if (pair_filter && !pair_filter(std::min(a.first, b.first), std::max(a.first, b.first))) return false;
+        if (p.group != 0 && p.group == q.group) return p.group > 0;
+        return (p.layers & q.mask) != 0 && (q.layers & p.mask) != 0;
+    }
     static bool both_half_spaces(const View<D>& a, const View<D>& b) {
         return std::holds_alternative<detail::HalfSpaceView<D>>(a) &&
                std::holds_alternative<detail::HalfSpaceView<D>>(b);
@@ -196,11 +220,10 @@ private:
     void test_pair(const std::pair<const Id, Item>& a, const std::pair<const Id, Item>& b) {
         const ItemOptions<D>&p = a.second.options, &q = b.second.options;
         const View<D> view_a = a.second.view(), view_b = b.second.view();
-        if ((p.fixed && q.fixed) || (p.layers & q.mask) == 0 || (q.layers & p.mask) == 0) return;
-        if (both_half_spaces(view_a, view_b)) return;
-        const bool changed = a.second.changed || b.second.changed;
+        if ((p.fixed && q.fixed) || !may_pair(a, b)) return;
+        const bool changed = a.second.changed || b.second.changed, may_change = changed || pair_filter_changed;
         count(overlaps(detail::bounds(view_a), detail::bounds(view_b)), changed, min_counts);
-        count(overlaps(widened(detail::bounds(view_a)), widened(detail::bounds(view_b))), changed, max_counts);
+        count(overlaps(widened(detail::bounds(view_a)), widened(detail::bounds(view_b))), may_change, max_counts);
         const IdPair pair{a.first, b.first};
         bool touch = false;
         if (p.sensor || q.sensor) {
@@ -216,8 +239,6 @@ private:
         if (hit) impacts_[pair] = *hit;
         if (hit && !touch) passed_.push_back(pair);
     }
-
-    using Entry = std::pair<const Id, Item>;
 
     /// Adds the contact with the surfaces of the neighbours to found_. Two balls have no edges, and an item whose
     /// centre a neighbour contains has no surface. Returns false if the items don't touch.
@@ -254,13 +275,12 @@ private:
     /// sensors, and have boxes that overlap its own.
     auto others(const Entry& item, const Entry& but) const {
         return [this, &item, &but](const detail::DVec<D>& point, double within, detail::ClosestPointVisitor<D> visit) {
-            const ItemOptions<D>& p = item.second.options;
             const View<D> own = item.second.view();
             for (const Entry& other : items_) {
                 const ItemOptions<D>& q = other.second.options;
                 const View<D> view = other.second.view();
                 if (other.first == item.first || other.first == but.first || q.sensor) continue;
-                if ((p.layers & q.mask) == 0 || (q.layers & p.mask) == 0 || both_half_spaces(own, view)) continue;
+                if (!may_pair(item, other)) continue;
                 if (overlaps(detail::bounds(own), detail::bounds(view)))
                     each_closest_point_on(view, point, within, visit);
             }

@@ -42,6 +42,7 @@ public:
             }
         }
         if (reference.items().size() < ids.size() || random_.chance(0.1)) add();
+        if (with_all && random_.chance(0.1)) set_pair_filter();
     }
 
     /// A random filter, most often the default one. Valid until the next call.
@@ -54,6 +55,8 @@ public:
         ignored_.clear();
         while (with_all && random_.chance(0.4)) ignored_.push_back(any_id());
         result.ignore_ids = ignored_;
+        accepts_ = [salt = random_.below(4)](Id id) { return id.index % 4 != salt; };
+        if (with_all && random_.chance(0.3)) result.accepts = accepts_;
         return result;
     }
 
@@ -77,6 +80,8 @@ public:
         options.fixed = random_.chance(0.3);
         options.sensor = random_.chance(0.15);
         options.continuous = continuous_ > 0 && random_.chance(continuous_);
+        if (with_all) options.group = any_group();
+        options.enabled = !with_all || random_.chance(0.95);
         with_any_shape([&](const auto& shape) {
             const Id id = world.add(shape, options);
             reused += id.generation > 1 ? 1 : 0;
@@ -99,13 +104,13 @@ public:
         });
     }
     void set_filter(Id id) {
-        const std::uint32_t layers = random_bits(), mask = random_bits();
+        const std::uint64_t layers = random_bits(), mask = random_bits();
         world.set_filter(id, layers, mask);
         reference.set_filter(id, layers, mask);
     }
 
     void set_an_option(Id id) {
-        switch (random_.below(4)) {
+        switch (random_.below(6)) {
             case 0: {
                 const bool fixed = random_.chance(0.3);
                 world.set_fixed(id, fixed);
@@ -121,6 +126,16 @@ public:
                 const bool continuous = continuous_ > 0 && random_.chance(continuous_);
                 world.set_continuous(id, continuous);
                 return reference.set_continuous(id, continuous);
+            }
+            case 3: {
+                const std::int32_t group = any_group();
+                world.set_group(id, group);
+                return reference.set_group(id, group);
+            }
+            case 4: {
+                const bool enabled = random_.chance(0.9);
+                world.set_enabled(id, enabled);
+                return reference.set_enabled(id, enabled);
             }
             default: {
                 const std::uint64_t user = random_.bits();
@@ -171,13 +186,28 @@ private:
         return {pose.position + snapped(to_float(random_.in_cube<D>() + detail::DVec<D>(0.5)))};
     }
     /// A random non-empty set of three layers.
-    std::uint32_t random_bits() { return 1 + random_.below(7); }
+    std::uint64_t random_bits() {
+        const std::uint64_t bits = 1 + random_.below(7);
+        return (bits & 3) | (bits & 4) << 40;
+    }
+    std::int32_t any_group() { return random_.chance(0.8) ? 0 : static_cast<std::int32_t>(random_.below(5)) - 2; }
+    /// Most often one that refuses one pair in 16.
+    void set_pair_filter() {
+        reference.pair_filter_changed = true;
+        reference.pair_filter = nullptr;
+        if (random_.chance(0.8))
+            reference.pair_filter = [salt = random_.bits()](Id a, Id b) {
+                return ((a.index * std::uint64_t{1000003} + b.index) * 0x9E3779B97F4A7C15 ^ salt) >> 60 != 0;
+            };
+        world.set_pair_filter(reference.pair_filter);
+    }
 
     oracle::Random random_;
     bool lattice_;
     double continuous_;  ///< the share of continuous items
     std::set<Id> given_;
     std::vector<Id> ignored_;
+    std::function<bool(Id)> accepts_;
 };
 
 }  // namespace abut::test
