@@ -50,18 +50,6 @@ bool World<D>::may_touch(std::uint32_t slot, std::uint32_t other) const {
            detail::may_overlap(swept_box_of(slot), swept_box_of(other));
 }
 
-/// Adds the impact of a pair since the last update, unless the pair touched at that update.
-template <int D>
-void World<D>::test_motion(const IdPair& pair, bool touch) {
-    const std::uint32_t a = pair.a.index - 1, b = pair.b.index - 1;
-    if (!has_swept_box(a) && !has_swept_box(b)) return;
-    if (std::binary_search(last_touching_.begin(), last_touching_.end(), pair)) return;
-    const std::optional<Hit<D>> hit = sweep_pair(a, b);
-    if (!hit) return;
-    impacts_.push_back({pair.a, pair.b, *hit});
-    if (!touch) passed_.push_back(pair);
-}
-
 template <int D>
 std::optional<Hit<D>> World<D>::sweep_pair(std::uint32_t slot, std::uint32_t other) const {
     const auto from = [this](std::uint32_t item) -> const Pose<D>& {
@@ -76,14 +64,15 @@ std::optional<Hit<D>> World<D>::sweep_pair(std::uint32_t slot, std::uint32_t oth
     return abut::sweep(own_a, from_a, to_a, own_b, from_b, to_b);
 }
 
-/// Writes the fractions of began_. began_ and impacts_ are both sorted.
+/// Writes the fractions of began_. began_ and results_.impacts are both sorted.
 template <int D>
 void World<D>::set_fractions() {
     fractions_.assign(began_.size(), 1.0f);
-    auto impact = impacts_.begin();
-    for (std::size_t i = 0; i < began_.size() && impact != impacts_.end(); ++i) {
-        while (impact != impacts_.end() && IdPair{impact->a, impact->b} < began_[i]) ++impact;
-        if (impact != impacts_.end() && IdPair{impact->a, impact->b} == began_[i]) fractions_[i] = impact->hit.fraction;
+    auto impact = results_.impacts.begin();
+    for (std::size_t i = 0; i < began_.size() && impact != results_.impacts.end(); ++i) {
+        while (impact != results_.impacts.end() && IdPair{impact->a, impact->b} < began_[i]) ++impact;
+        if (impact != results_.impacts.end() && IdPair{impact->a, impact->b} == began_[i])
+            fractions_[i] = impact->hit.fraction;
     }
 }
 

@@ -166,9 +166,10 @@ void World<D>::save(std::vector<std::byte>& bytes) {
     sizes.motions = static_cast<std::uint32_t>(std::count_if(pending_.begin(), pending_.end(), has_motion));
     const auto has_rare = [](const Item& item) { return item.in_use && has_rare_filter(item); };
     sizes.rare_filters = static_cast<std::uint32_t>(std::count_if(items_.begin(), items_.end(), has_rare));
-    sizes.stale = static_cast<std::uint32_t>(std::count_if(touching_.begin(), touching_.end(), is_stale));
-    sizes.touching = static_cast<std::uint32_t>(touching_.size()) - sizes.stale;
-    sizes.passed = static_cast<std::uint32_t>(passed_.size());
+    sizes.stale =
+        static_cast<std::uint32_t>(std::count_if(results_.touching.begin(), results_.touching.end(), is_stale));
+    sizes.touching = static_cast<std::uint32_t>(results_.touching.size()) - sizes.stale;
+    sizes.passed = static_cast<std::uint32_t>(results_.passed.size());
 
     const std::size_t size = static_cast<std::size_t>(sizes.words<D>()) * sizeof(std::uint32_t);
     bytes.resize(size + sizeof(std::uint64_t));
@@ -194,15 +195,15 @@ void World<D>::save(std::vector<std::byte>& bytes) {
         const Item& item = items_[slot];
         if (has_rare(item)) writer.put(slot, upper(item.layers), upper(item.mask), item.group);
     }
-    for (const IdPair& pair : touching_)
+    for (const IdPair& pair : results_.touching)
         if (!is_stale(pair)) writer.put(pair.a.index - 1, pair.b.index - 1);
     const auto put_ids = [&writer](const IdPair& pair) {
         writer.put(pair.a);
         writer.put(pair.b);
     };
-    for (const IdPair& pair : touching_)
+    for (const IdPair& pair : results_.touching)
         if (is_stale(pair)) put_ids(pair);
-    for (const IdPair& pair : passed_) put_ids(pair);
+    for (const IdPair& pair : results_.passed) put_ids(pair);
     writer.put(blob_checksum<checksum_sums>(std::span(bytes).first(size)));
 }
 
@@ -444,12 +445,12 @@ std::optional<Problem> World<D>::restore(std::span<const std::byte> bytes) {
         previous_poses_.push_back(motion.previous);
     }
     near_.clear();
-    found_.clear();
+    results_.found.clear();
     are_all_reported_ = true;
-    impacts_.clear();
-    touching_.assign(snapshot.touching.begin(), snapshot.touching.end());
-    passed_.assign(snapshot.passed.begin(), snapshot.passed.end());
-    pair_index_.build(touching_, touching_.capacity());
+    results_.impacts.clear();
+    results_.touching.assign(snapshot.touching.begin(), snapshot.touching.end());
+    results_.passed.assign(snapshot.passed.begin(), snapshot.passed.end());
+    pair_index_.build(results_.touching, results_.touching.capacity());
     return std::nullopt;
 }
 

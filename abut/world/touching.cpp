@@ -10,7 +10,7 @@ template <int D>
 void World<D>::visit_touching(Id id, FunctionRef<bool(Id)> visit) const {
     const bool is_valid = contains(id);
     ABUT_ASSERT(is_valid);
-    if (is_valid) pair_index_.visit(touching_, id, [&](Id other) { return !contains(other) || visit(other); });
+    if (is_valid) pair_index_.visit(results_.touching, id, [&](Id other) { return !contains(other) || visit(other); });
 }
 
 template <int D>
@@ -41,7 +41,7 @@ Contact<D> World<D>::contact(const IdPair& pair) const {
 
 template <int D>
 std::optional<Hit<D>> World<D>::impact(const IdPair& pair) const {
-    const auto found = entries_of(std::span<const WorldImpact<D>>(impacts_), pair);
+    const auto found = entries_of(std::span<const WorldImpact<D>>(results_.impacts), pair);
     return found.empty() ? std::nullopt : std::optional(found.front().hit);
 }
 

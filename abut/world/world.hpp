@@ -9,14 +9,13 @@
 #include <abut/math/result.hpp>
 #include <abut/query/raycast.hpp>
 #include <abut/shape/any_shape.hpp>
-#include <abut/world/detail/edge_filter_memory.hpp>
-#include <abut/world/detail/found_contacts.hpp>
 #include <abut/world/detail/item_boxes.hpp>
 #include <abut/world/detail/pair_index.hpp>
-#include <abut/world/detail/placed_views.hpp>
+#include <abut/world/detail/pair_results.hpp>
 #include <abut/world/detail/query_count.hpp>
 #include <abut/world/detail/released_shapes.hpp>
 #include <abut/world/detail/swept_box.hpp>
+#include <abut/world/detail/update_memory.hpp>
 #include <abut/world/detail/why_no_sweep.hpp>
 #include <abut/world/detail/world_item.hpp>
 #include <abut/world/options.hpp>
@@ -175,15 +174,23 @@ public:
     /// costs less if it is removed and added.
     Events update() {
         detail::clear_upper_halves();
-        return find_events();
+        return find_events(nullptr);
+    }
+    /// The same events, contacts and bits, by the threads of an executor, such as a ThreadPool. They call a pair filter
+    /// at the same time.
+    Events update(Executor& executor) {
+        detail::clear_upper_halves();
+        return find_events(&executor);
     }
     /// The contacts of the last update, for pairs without a sensor, sorted by pairs. A pair that touches with several
     /// surfaces, such as a crate with the floor and a wall of one mesh, has an entry for each, the deepest first. An
     /// item that touches several others gets surface normals of their union, without ghost collisions: docs/ghosts.md.
-    std::span<const WorldContact<D>> contacts() const { return are_all_reported_ ? found_.contacts : contacts_; }
+    std::span<const WorldContact<D>> contacts() const {
+        return are_all_reported_ ? results_.found.contacts : contacts_;
+    }
     /// The impacts of the last update, sorted: one for each pair with a continuous item, sensor or not, that began and
     /// touched during its motion.
-    std::span<const WorldImpact<D>> impacts() const { return impacts_; }
+    std::span<const WorldImpact<D>> impacts() const { return results_.impacts; }
     UpdateCounts counts() const { return counts_; }
     /// Brings the broad phases up to date with all changes, so that queries are as fast as after an update. It is
     /// optional: no answer of a query or of the next update depends on it.
@@ -342,7 +349,7 @@ private:
     // The bodies of the public functions, compiled with the library's flags.
     Id add_shape(const AnyShape<D>& shape, const ItemOptions<D>& options);
     void move_to(Id id, const Pose<D>& pose);
-    Events find_events();
+    Events find_events(Executor* executor);
     void refresh_now();
     std::optional<WorldHit<D>> first_hit(const Ray<D>& ray, const Filter& filter) const;
     bool any_hit(const Ray<D>& ray, const Filter& filter) const;
@@ -372,10 +379,6 @@ private:
     }
     View<D> placed(const Item& item) const { return item.stored.moved(detail::affine(item.pose)); }
     detail::BoundingBall<D> ball(const Item& item) const;
-    const View<D>& placed_view(std::uint32_t slot) {
-        return views_.of(slot, [&] { return placed(items_[slot]); });
-    }
-    const View<D>& first_placed(std::uint32_t slot);
     void visit_items(FunctionRef<bool(Id)> visit) const;
     void visit_touching(Id id, FunctionRef<bool(Id)> visit) const;
     void visit_contacts_of(Id id, FunctionRef<bool(const WorldContact<D>&)> visit) const;
@@ -392,46 +395,28 @@ private:
     /// It is high enough to count the queries of several updates in one.
     std::uint32_t query_limit() const { return static_cast<std::uint32_t>(detail::ray_weight * (moving_.size() + 64)); }
 
-    void refresh_boxes();
+    void refresh_boxes(Executor* executor);
     bool has_swept_box(std::uint32_t slot) const;
     void widen_boxes();
     detail::SweptBox<D> swept_box_of(std::uint32_t slot) const;
     bool may_touch(std::uint32_t slot, std::uint32_t other) const;
     bool may_pair(std::uint32_t slot, std::uint32_t other) const;
-    void add_if_near(std::uint32_t slot, std::uint32_t other);
+    void find_near(Executor* executor);
     bool has_new_answer(const IdPair& pair) const;
     int slot_bits() const;
     void sort_near();
+    void list_neighbours();
+    class PairTests;
+    void test_near(Executor* executor);
+    std::optional<Hit<D>> sweep_pair(std::uint32_t slot, std::uint32_t other) const;
+    bool filters_edges(std::uint32_t slot) const;
     /// Whether both items of a near pair are part of the surface that a third one touches. Sensors are not, and near by
     /// their swept boxes alone is not enough.
     bool are_neighbours(std::uint32_t slot, std::uint32_t other) const {
         return !items_[slot].sensor && !items_[other].sensor && (!widened_ || overlaps(box(slot), box(other)));
     }
-    void add_neighbours(std::uint32_t slot, std::uint32_t other);
-    void test_near();
-    void test_pair(const IdPair& pair);
-    bool test_touch(const IdPair& pair);
-    void test_motion(const IdPair& pair, bool touch);
-    std::optional<Hit<D>> sweep_pair(std::uint32_t slot, std::uint32_t other) const;
-    void repeat_last(const IdPair& pair);
-    bool balls_apart(const IdPair& pair) const;
-    bool test_shapes(const IdPair& pair);
-    bool measure(const IdPair& pair, detail::BallEarlyOuts::Entry& entry);
-    bool filters_edges(std::uint32_t slot) const;
-    void reserve_edge_filter();
     void find_changed_neighbours();
     bool neighbours_changed(const IdPair& pair);
-    void each_closest_point_beside(std::uint32_t slot, std::uint32_t other, const detail::DVec<D>& point, double within,
-                                   FunctionRef<double(const detail::ClosestPoint<D>&)> visit);
-    bool is_center_covered(std::uint32_t slot);
-    bool find_contact(const IdPair& pair);
-    bool needs_filter(std::uint32_t slot);
-    bool needs_filter(std::uint32_t slot, std::uint32_t other, const Contact<D>& contact, float side);
-    bool find_surface_contacts(const IdPair& pair);
-    void filter_contacts();
-    template <class Use>
-    void with_neighbours(std::uint32_t a, std::uint32_t b, bool for_a, bool for_b, const Use& use);
-    void set_found(std::size_t index, const detail::SurfaceContact<D>& filtered);
     bool is_covered(std::size_t ghost, const Id& item) const;
     void link_contacts();
     void report_contacts();
@@ -480,24 +465,17 @@ private:
 
     std::vector<std::uint64_t> near_keys_, sorted_near_keys_;
     std::vector<IdPair> near_, last_near_;
-    detail::EdgeFilterMemory<D> edges_;             // made by the first update that filters
-    std::vector<IdPair> touching_, last_touching_;  // now and at the last update
-    detail::FoundContacts<D> found_, last_found_;
-    bool are_all_reported_ = true;              // of found_
-    std::vector<WorldContact<D>> contacts_;     // those of found_ that are reported, if not all are
-    std::vector<WorldImpact<D>> impacts_;       // of continuous pairs that didn't touch at the last update
-    std::vector<IdPair> passed_, last_passed_;  // pairs with an impact that don't touch at the end; last update's
+    detail::UpdateMemory<D> memory_;  // made by the first update
+    detail::PairResults<D> results_;
+    std::vector<IdPair> last_touching_, last_passed_;  // of the update before
+    detail::FoundContacts<D> last_found_;
+    bool are_all_reported_ = true;           // of the contacts in results_
+    std::vector<WorldContact<D>> contacts_;  // those that are reported, if not all are
     std::vector<IdPair> began_, stayed_, ended_;
     std::vector<float> fractions_;  // by index in began_
-    detail::PairIndex pair_index_;  // over touching_
+    detail::PairIndex pair_index_;  // over results_.touching
     UpdateCounts counts_;
     detail::BallEarlyOuts ball_early_outs_;
-    detail::PlacedViews<D> views_;  // in an update
-    /// The first shape of the pair that was tested last. Pairs are sorted, so consecutive pairs share it.
-    struct {
-        std::uint32_t slot = none;
-        View<D> view;
-    } first_;
 };
 
 using World2 = World<2>;

@@ -1,8 +1,9 @@
 // The cost of the filter of internal edges: an update of a World in which all loose items move, with the filter,
-// without it, and the contacts of all pairs without a World.
+// without it, and the contacts of all pairs without a World. And the update on two threads.
 
 #include "../../test/oracle/random.hpp"
 #include "broad.hpp"
+#include <abut/math/thread_pool.hpp>
 #include <abut/query/contact.hpp>
 #include <abut/shape/ball.hpp>
 #include <abut/shape/box.hpp>
@@ -131,25 +132,48 @@ struct ShakenCrowd {
     std::vector<Pose<D>> poses;
 };
 
+/// A world of a crowd.
+template <int D>
+struct CrowdedWorld {
+    explicit CrowdedWorld(const Crowd<D>& items, bool filter_edges = true)
+        : shaken(items), world({.filter_edges = filter_edges}) {
+        for (const auto& item : items.items)
+            ids.push_back(world.add(item.shape, {.pose = item.pose, .fixed = item.fixed}));
+    }
+    void move_all() {
+        for (std::size_t i = 0; i < ids.size(); ++i)
+            if (!shaken.crowd.items[i].fixed) world.move(ids[i], shaken.poses[i]);
+    }
+    static double touching(const Events& events) {
+        return static_cast<double>(events.began.size() + events.stayed.size());
+    }
+
+    ShakenCrowd<D> shaken;
+    World<D> world;
+    std::vector<Id> ids;
+};
+
 template <int D>
 Side update(std::string who, const Crowd<D>& crowd, bool filter_edges) {
-    struct State {
-        State(const Crowd<D>& items, bool filter) : shaken(items), world({.filter_edges = filter}) {
-            for (const auto& item : items.items)
-                ids.push_back(world.add(item.shape, {.pose = item.pose, .fixed = item.fixed}));
-        }
-        ShakenCrowd<D> shaken;
-        World<D> world;
-        std::vector<Id> ids;
-    };
-    const auto state = std::make_shared<State>(crowd, filter_edges);
+    const auto state = std::make_shared<CrowdedWorld<D>>(crowd, filter_edges);
     const auto run = [state](std::span<double> values) {
-        for (std::size_t i = 0; i < state->ids.size(); ++i)
-            if (!state->shaken.crowd.items[i].fixed) state->world.move(state->ids[i], state->shaken.poses[i]);
-        const Events events = state->world.update();
-        values[0] = static_cast<double>(events.began.size() + events.stayed.size());
+        state->move_all();
+        values[0] = state->touching(state->world.update());
     };
     return {std::move(who), run, [state] { state->shaken.shake(); }};
+}
+
+/// The update alone, without the moves.
+template <int D>
+Side update_by(std::string who, const Crowd<D>& crowd, const std::shared_ptr<Executor>& executor) {
+    const auto state = std::make_shared<CrowdedWorld<D>>(crowd);
+    const auto run = [state, executor](std::span<double> values) {
+        values[0] = state->touching(executor != nullptr ? state->world.update(*executor) : state->world.update());
+    };
+    return {std::move(who), run, [state] {
+                state->shaken.shake();
+                state->move_all();
+            }};
 }
 
 template <int D>
@@ -200,10 +224,30 @@ Bench edges(std::string scene, std::function<Crowd<D>()> make) {
     return {"broad/world/edges/" + std::move(scene), job};
 }
 
+template <int D>
+Bench threads(std::string scene, std::function<Crowd<D>()> make) {
+    const auto job = [make = std::move(make)]() -> Job {
+        const Crowd<D> crowd = make();
+        return {.items = crowd.items.size(),
+                .values = 1,
+                .rounds = 4,
+                .frames = 10,
+                .on_the_wall = true,
+                .tolerance = 0,
+                .sides = {update_by("abut, 2 threads", crowd, std::make_shared<ThreadPool>(2)),
+                          update_by<D>("abut", crowd, nullptr)}};
+    };
+    return {"broad/world/threads/" + std::move(scene), job};
+}
+
 }  // namespace
 
 std::vector<Bench> world_edge_benches() {
     return {
+        threads<2>("sparse/2d", [] { return scattered<2>(10'000, 8); }),
+        threads<3>("sparse/3d", [] { return scattered<3>(10'000, 20); }),
+        threads<3>("pile/3d", thrown_onto_a_floor),
+        threads<3>("packed/3d/1700", [] { return packed<3>(1700, 12); }),
         edges<2>("sparse/2d", [] { return scattered<2>(10'000, 8); }),
         edges<3>("sparse/3d", [] { return scattered<3>(10'000, 20); }),
         edges<3>("floor/3d", on_a_floor),

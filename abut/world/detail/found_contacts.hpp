@@ -53,6 +53,15 @@ struct FoundContacts {
         states.reserve(other.states.capacity());
         own_areas.reserve(other.own_areas.capacity());
     }
+    void append(const FoundContacts& later) {
+        const auto first_area = static_cast<std::uint32_t>(own_areas.size());
+        const std::size_t first = states.size();
+        contacts.insert(contacts.end(), later.contacts.begin(), later.contacts.end());
+        states.insert(states.end(), later.states.begin(), later.states.end());
+        own_areas.insert(own_areas.end(), later.own_areas.begin(), later.own_areas.end());
+        for (FoundState& state : std::span(states).subspan(first))
+            if (state.own_area != FoundState::no_own_area) state.own_area += first_area;
+    }
     void set_own_area(std::size_t index, const WorldContact<D>& area) {
         states[index].own_area = static_cast<std::uint32_t>(own_areas.size());
         own_areas.push_back(area);

@@ -74,15 +74,15 @@ void ItemBoxes<D>::remove(std::uint32_t place) {
 }
 
 template <int D>
-void ItemBoxes<D>::refresh(double queries) {
+void ItemBoxes<D>::refresh(double queries, Executor* executor) {
     const double moved = static_cast<double>(changed_) / static_cast<double>(std::max<std::size_t>(size(), 1));
     phase_.set_history({.moved = std::min(moved, 1.0), .queries = queries});
     is_wide_ = !wide_.empty();
     const std::span<const Aabb<D>> boxes = is_wide_ ? wide_ : boxes_;
     if (refreshed_ == boxes.size())
-        phase_.update(boxes);
+        phase_.update(boxes, executor);
     else
-        phase_.build(boxes);
+        phase_.build(boxes, executor);
     wide_.clear();
     changed_ = 0;
     refreshed_ = planned_ = boxes_.size();

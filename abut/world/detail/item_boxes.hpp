@@ -49,8 +49,8 @@ public:
 
     /// Whether any box differs from that in the broad phase since the last refresh.
     bool changed() const { return changed_ > 0 || refreshed_ != boxes_.size() || is_wide_ || !wide_.empty(); }
-    /// Brings the broad phase up to date.
-    void refresh(double queries);
+    /// Brings the broad phase up to date, by the threads of an executor if there is one.
+    void refresh(double queries, Executor* executor = nullptr);
     /// The broad phase as of the last refresh.
     const ChosenBroadPhase<D>& phase() const { return phase_; }
 

@@ -1,0 +1,122 @@
+// The tests of near pairs: early outs, contacts and impacts.
+
+#include <abut/query/overlaps.hpp>
+#include <abut/world/detail/pair_tests.hpp>
+
+#include <algorithm>
+
+#include <hwy/cache_control.h>
+
+namespace abut {
+
+/// Items are in memory by slot, and so those of a pair far apart: those of later pairs are
+/// fetched meanwhile.
+template <int D>
+void World<D>::PairTests::run(std::size_t begin, std::size_t end) {
+    constexpr std::size_t ahead = 8, cache_line = 64;
+    for (std::size_t i = begin; i < end; ++i) {
+        const Item& later = items_[world_.near_[std::min(i + ahead, end - 1)].b.index - 1];
+        hwy::Prefetch(&later);
+        hwy::Prefetch(reinterpret_cast<const char*>(&later) + cache_line);
+        test_pair(world_.near_[i]);
+    }
+    filter_contacts();
+}
+
+/// Tests a near pair. If nothing changed, the last result is repeated.
+template <int D>
+void World<D>::PairTests::test_pair(const IdPair& pair) {
+    const Item &a = items_[pair.a.index - 1], &b = items_[pair.b.index - 1];
+    if (!a.pending && !b.pending && !world_.has_new_answer(pair)) return repeat_last(pair);
+    ++results_.tested;
+    // A pair may be near by its swept boxes alone; it touches only if the present boxes overlap.
+    const bool touch =
+        (!world_.widened_ || overlaps(world_.box(pair.a.index - 1), world_.box(pair.b.index - 1))) && test_touch(pair);
+    if (a.continuous || b.continuous) test_motion(pair, touch);
+}
+
+/// Tests whether a pair touches now, with the early out by bounding balls, and adds it to results_.touching if so. The
+/// first part of an update alone measures, because measurements are shared.
+template <int D>
+bool World<D>::PairTests::test_touch(const IdPair& pair) {
+    const Item &a = items_[pair.a.index - 1], &b = items_[pair.b.index - 1];
+    detail::BallEarlyOuts::Entry& entry = world_.ball_early_outs_.entry(a.type, b.type, a.sensor || b.sensor);
+    if (is_first_part_ && world_.ball_early_outs_.due(entry)) return measure(pair, entry);
+    if (!world_.ball_early_outs_.is_used(entry) || !balls_apart(pair)) return test_shapes(pair);
+    ++results_.balls;
+    return false;
+}
+
+/// Adds the impact of a pair since the last update, unless the pair touched at that update.
+template <int D>
+void World<D>::PairTests::test_motion(const IdPair& pair, bool touch) {
+    const std::uint32_t a = pair.a.index - 1, b = pair.b.index - 1;
+    if (!world_.has_swept_box(a) && !world_.has_swept_box(b)) return;
+    if (std::binary_search(world_.last_touching_.begin(), world_.last_touching_.end(), pair)) return;
+    const std::optional<Hit<D>> hit = world_.sweep_pair(a, b);
+    if (!hit) return;
+    results_.impacts.push_back({pair.a, pair.b, *hit});
+    if (!touch) results_.passed.push_back(pair);
+}
+
+/// Repeats the last result of a pair of which neither item changed. Its contact is found anew if a neighbour changed.
+template <int D>
+void World<D>::PairTests::repeat_last(const IdPair& pair) {
+    if (!std::binary_search(world_.last_touching_.begin(), world_.last_touching_.end(), pair)) return;
+    results_.touching.push_back(pair);
+    const std::span<const WorldContact<D>> all = world_.last_found_.contacts, found = detail::entries_of(all, pair);
+    if (found.empty()) return;
+    if (world_.neighbours_changed(pair)) {
+        find_contact(pair);
+        return;
+    }
+    for (const WorldContact<D>& contact : found) {
+        const detail::FoundState& last = world_.last_found_.states[static_cast<std::size_t>(&contact - all.data())];
+        results_.found.add(pair, last) = contact;
+        if (last.own_area != detail::FoundState::no_own_area)
+            results_.found.set_own_area(results_.found.size() - 1, world_.last_found_.own_areas[last.own_area]);
+    }
+}
+
+template <int D>
+bool World<D>::PairTests::balls_apart(const IdPair& pair) const {
+    return detail::apart(world_.ball(items_[pair.a.index - 1]), world_.ball(items_[pair.b.index - 1]));
+}
+
+/// Tests the shapes of a pair, and adds it to results_.touching if they touch.
+template <int D>
+bool World<D>::PairTests::test_shapes(const IdPair& pair) {
+    const Item &a = items_[pair.a.index - 1], &b = items_[pair.b.index - 1];
+    if (a.sensor || b.sensor) {
+        if (!overlaps(first_placed(pair.a.index - 1), placed_view(pair.b.index - 1))) return false;
+    } else if (!find_contact(pair)) {
+        return false;
+    }
+    results_.touching.push_back(pair);
+    return true;
+}
+
+/// Measures the tests of the balls and of the shapes. The test of the balls runs 16 times, because it takes less time
+/// than reading the clock, and once before: if the early out isn't in use, the balls must be fetched from memory first.
+template <int D>
+bool World<D>::PairTests::measure(const IdPair& pair, detail::BallEarlyOuts::Entry& entry) {
+    constexpr int repetitions = 16;
+    bool overlap = !balls_apart(pair);
+    std::array<std::uint64_t, 4> clock{};
+    clock[0] = detail::steady_nanoseconds();
+    clock[1] = detail::steady_nanoseconds();
+    for (int i = 0; i < repetitions; ++i) overlap = !balls_apart(pair);
+    clock[2] = detail::steady_nanoseconds();
+    const bool touch = test_shapes(pair);
+    clock[3] = detail::steady_nanoseconds();
+    std::array<double, 3> nanoseconds{};
+    for (std::size_t i = 0; i < 3; ++i) nanoseconds[i] = static_cast<double>(clock[i + 1] - clock[i]);
+    nanoseconds[1] = nanoseconds[0] + (nanoseconds[1] - nanoseconds[0]) / repetitions;
+    world_.ball_early_outs_.add_sample(entry, nanoseconds, overlap, touch);
+    return touch;
+}
+
+template class World<2>::PairTests;
+template class World<3>::PairTests;
+
+}  // namespace abut

@@ -1,0 +1,62 @@
+#pragma once
+
+// The tests of a world's near pairs in an update. For .cpp files.
+
+#include <abut/world/detail/update_state.hpp>
+#include <abut/world/world.hpp>
+
+namespace abut {
+
+/// The tests of consecutive near pairs, with their contacts filtered. Several may run at the same time: they change
+/// their own memory and results alone, except for what Neighbourhoods says.
+template <int D>
+class World<D>::PairTests {
+public:
+    PairTests(World& world, detail::PairTestMemory<D>& memory, detail::PairResults<D>& results, bool is_first_part)
+        : world_(world), memory_(memory), results_(results), is_first_part_(is_first_part) {}
+
+    /// Tests near_[begin] to near_[end - 1].
+    void run(std::size_t begin, std::size_t end);
+
+private:
+    void test_pair(const IdPair& pair);
+    bool test_touch(const IdPair& pair);
+    void test_motion(const IdPair& pair, bool touch);
+    void repeat_last(const IdPair& pair);
+    bool balls_apart(const IdPair& pair) const;
+    bool test_shapes(const IdPair& pair);
+    bool measure(const IdPair& pair, detail::BallEarlyOuts::Entry& entry);
+
+    // The filter of internal edges.
+    bool find_contact(const IdPair& pair);
+    bool find_surface_contacts(const IdPair& pair);
+    void filter_contacts();
+    bool needs_filter(std::uint32_t slot);
+    bool needs_filter(std::uint32_t slot, std::uint32_t other, const Contact<D>& contact, float side);
+    bool is_center_covered(std::uint32_t slot);
+    void each_closest_point_beside(std::uint32_t slot, std::uint32_t other, const detail::DVec<D>& point, double within,
+                                   detail::ClosestPointVisitor<D> visit);
+    template <class Use>
+    void with_neighbours(std::uint32_t a, std::uint32_t b, bool for_a, bool for_b, const Use& use);
+    void set_found(std::size_t index, const detail::SurfaceContact<D>& filtered);
+
+    const View<D>& placed_view(std::uint32_t slot) {
+        return memory_.views.of(slot, [&] { return world_.placed(items_[slot]); });
+    }
+    const View<D>& first_placed(std::uint32_t slot) {
+        if (memory_.first_slot != slot) {
+            memory_.first_slot = slot;
+            std::construct_at(&memory_.first, world_.placed(items_[slot]));
+        }
+        return memory_.first;
+    }
+
+    World& world_;
+    const std::vector<Item>& items_ = world_.items_;
+    detail::Neighbourhoods<D>& neighbours_ = world_.memory_->neighbours;
+    detail::PairTestMemory<D>& memory_;
+    detail::PairResults<D>& results_;
+    bool is_first_part_;
+};
+
+}  // namespace abut

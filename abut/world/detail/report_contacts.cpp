@@ -1,0 +1,131 @@
+// Which of the contacts that an update has found it reports: not the ghosts that others cover (docs/ghosts.md). And
+// which contacts of items at rest are to be found anew.
+
+#include <abut/world/detail/update_state.hpp>
+#include <abut/world/world.hpp>
+
+#include <algorithm>
+#include <utility>
+
+namespace abut {
+
+using namespace detail;
+
+namespace {
+
+/// Calls visit(pair) for the pairs that only one of two sorted lists has.
+template <class Visit>
+void each_difference(const std::vector<IdPair>& first, const std::vector<IdPair>& second, const Visit& visit) {
+    auto a = first.begin(), b = second.begin();
+    while (a != first.end() || b != second.end()) {
+        if (b == second.end() || (a != first.end() && *a < *b))
+            visit(*a++);
+        else if (a == first.end() || *b < *a)
+            visit(*b++);
+        else
+            ++a, ++b;
+    }
+}
+
+}  // namespace
+
+/// Whether contacts of the item are filtered for its sake. A fixed item is not pushed, so no normal matters to it.
+template <int D>
+bool World<D>::filters_edges(std::uint32_t slot) const {
+    return filters_edges_ && !items_[slot].fixed;
+}
+
+/// Marks the items near which another one has changed.
+template <int D>
+void World<D>::find_changed_neighbours() {
+    std::vector<char>& changed = memory_->neighbour_changed;
+    changed.assign(items_.size(), false);
+    for (const std::vector<IdPair>* pairs : {&near_, &last_near_})
+        for (const IdPair& pair : *pairs) {
+            const std::uint32_t a = pair.a.index - 1, b = pair.b.index - 1;
+            if (items_[a].pending) changed[b] = true;
+            if (items_[b].pending) changed[a] = true;
+        }
+    if (!filters_pairs_) return;
+    // A pair filter may change its answer for items that did not change.
+    each_difference(near_, last_near_, [&](const IdPair& pair) {
+        changed[pair.a.index - 1] = true;
+        changed[pair.b.index - 1] = true;
+    });
+}
+
+/// Whether an item near one of the two has changed.
+template <int D>
+bool World<D>::neighbours_changed(const IdPair& pair) {
+    if (filters_edges_) memory_->find_neighbour_changed.run([this] { find_changed_neighbours(); });
+    const std::uint32_t a = pair.a.index - 1, b = pair.b.index - 1;
+    return (filters_edges(a) && memory_->neighbour_changed[a]) || (filters_edges(b) && memory_->neighbour_changed[b]);
+}
+
+/// Whether another reported contact of the item covers a contact with a substitute normal, a ghost.
+template <int D>
+bool World<D>::is_covered(std::size_t ghost, const Id& item) const {
+    const auto normal_from_item = [&](const WorldContact<D>& contact) {
+        return DVec<D>(contact.contact.normal) * (contact.a == item ? 1.0 : -1.0);
+    };
+    const WorldContact<D>& result = results_.found.contacts[ghost];
+    const std::uint32_t slot = item.index - 1;
+    if (!filters_edges(slot)) return false;
+    for (std::uint32_t link = memory_->last_found[slot]; link != none; link = memory_->found_before[link]) {
+        const std::size_t other = link / 2;
+        const WorldContact<D>& cover = results_.found.contacts[other];
+        if (results_.found.states[other].reported && other != ghost &&
+            covers_contact<D>(normal_from_item(cover), static_cast<double>(cover.contact.depth),
+                              normal_from_item(result), static_cast<double>(result.contact.depth),
+                              static_cast<double>(results_.found.states[ghost].size)))
+            return true;
+    }
+    return false;
+}
+
+/// Links the contacts of each item.
+template <int D>
+void World<D>::link_contacts() {
+    std::vector<std::uint32_t>& last = memory_->last_found;
+    last.assign(items_.size(), none);
+    memory_->found_before.clear();
+    for (const WorldContact<D>& found : results_.found.contacts)
+        for (const Id& id : {found.a, found.b}) {
+            memory_->found_before.push_back(last[id.index - 1]);
+            last[id.index - 1] = static_cast<std::uint32_t>(memory_->found_before.size() - 1);
+        }
+}
+
+/// Reports the contacts with surface normals, and then, by id, the ghosts. A ghost that a reported contact covers is
+/// reported by the area that its items have on the surface, if they have any, so that they still hold each other.
+template <int D>
+void World<D>::report_contacts() {
+    std::vector<FoundState>& states = results_.found.states;
+    bool any_ghost = false;
+    are_all_reported_ = true;
+    for (FoundState& state : states) {
+        const bool is_ghost = !state.surface_normal;
+        any_ghost = any_ghost || is_ghost;
+        state.reported = state.reported && !is_ghost;
+        are_all_reported_ = are_all_reported_ && state.reported;
+    }
+    if (are_all_reported_) return;
+    if (any_ghost) link_contacts();
+    contacts_.clear();
+    for (std::size_t i = 0; i < states.size(); ++i) {
+        const WorldContact<D>& found = results_.found.contacts[i];
+        FoundState& state = states[i];
+        if (!state.surface_normal && found.contact)
+            state.reported = (state.surface_normal.a || !is_covered(i, found.a)) &&
+                             (state.surface_normal.b || !is_covered(i, found.b));
+        if (state.reported)
+            contacts_.push_back(found);
+        else if (state.own_area != FoundState::no_own_area)
+            contacts_.push_back(results_.found.own_areas[state.own_area]);
+    }
+}
+
+template class World<2>;
+template class World<3>;
+
+}  // namespace abut
