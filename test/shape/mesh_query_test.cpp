@@ -20,7 +20,7 @@ using namespace detail;
 namespace {
 
 /// Counts of the kinds of answers.
-struct Seen {
+struct AnswerCounts {
     int gaps = 0, depths = 0, filtered = 0, hits = 0, misses = 0;
 };
 
@@ -59,7 +59,7 @@ float min_distance(const Parts& parts, const View<3>& other) {
     return least;
 }
 
-void check_closest(const View<3>& mesh, const Parts& parts, const View<3>& other, Seen& seen) {
+void check_closest(const View<3>& mesh, const Parts& parts, const View<3>& other, AnswerCounts& seen) {
     const float expected = min_distance(parts, other);
     const Closest<3> found = closest(mesh, other), swapped = closest(other, mesh);
     ASSERT_EQ(found.distance, expected);
@@ -100,7 +100,7 @@ void check_closest(const View<3>& mesh, const Parts& parts, const View<3>& other
     EXPECT_EQ(deepest_of(touch), deepest_of(part_contact));
 }
 
-void check_raycast(const View<3>& mesh, const Parts& parts, const Ray3& ray, Seen& seen) {
+void check_raycast(const View<3>& mesh, const Parts& parts, const Ray3& ray, AnswerCounts& seen) {
     const Hit<3>* first = nullptr;
     std::vector<Hit<3>> hits;
     hits.reserve(parts.views.size());
@@ -124,7 +124,7 @@ void check_raycast(const View<3>& mesh, const Parts& parts, const Ray3& ray, See
 
 /// Random shapes and rays near a mesh of size about 1, placed by `place`.
 template <class Place>
-void check_placed(oracle::Random& random, const Mesh& mesh, Place place, Seen& seen) {
+void check_placed(oracle::Random& random, const Mesh& mesh, Place place, AnswerCounts& seen) {
     const std::vector<Triangle3> triangles = triangles_of(mesh);
     const Parts parts(triangles, place);
     const auto placed = place(mesh);
@@ -146,7 +146,7 @@ void check_placed(oracle::Random& random, const Mesh& mesh, Place place, Seen& s
 }
 
 /// Ways to place a mesh: its triangles have the same pose.
-void check_mesh(oracle::Random& random, const Mesh& mesh, Seen& seen) {
+void check_mesh(oracle::Random& random, const Mesh& mesh, AnswerCounts& seen) {
     const Pose3 pose = random_pose<3>(random, 5), inner = random_pose<3>(random, 2);
     const Vec3 scale = random_scale(random);
     check_placed(
@@ -165,7 +165,7 @@ void check_mesh(oracle::Random& random, const Mesh& mesh, Seen& seen) {
         random, mesh, [&](const auto& s) { return stretched(rounded(s, 0.2f), scale); }, seen);
 }
 
-void expect_both_kinds(const Seen& seen) {
+void expect_both_kinds(const AnswerCounts& seen) {
     std::cout << "gaps " << seen.gaps << ", depths " << seen.depths << ", filtered " << seen.filtered << ", hits "
               << seen.hits << ", misses " << seen.misses << "\n";
     const int pairs = seen.gaps + seen.depths, rays = seen.hits + seen.misses;
@@ -178,14 +178,14 @@ void expect_both_kinds(const Seen& seen) {
 
 TEST(MeshQuery, SoupAgreesWithItsTriangles) {
     oracle::Random random(1);
-    Seen seen;
+    AnswerCounts seen;
     for (int i = 0; i < 20; ++i) check_mesh(random, random_soup(random, 30, 1, 1).mesh(), seen);
     expect_both_kinds(seen);
 }
 
 TEST(MeshQuery, ClosedMeshAgreesWithItsTriangles) {
     oracle::Random random(2);
-    Seen seen;
+    AnswerCounts seen;
     for (int i = 0; i < 10; ++i) check_mesh(random, house(random.uniform_float(0.5, 2)), seen);
     expect_both_kinds(seen);
 }
@@ -236,7 +236,7 @@ TEST(MeshQuery, IsLikeTheSameTrianglesInNoOrder) {
 
 TEST(MeshQuery, MeshAgainstMeshAgreesWithAllPairsOfTriangles) {
     oracle::Random random(3);
-    Seen seen;
+    AnswerCounts seen;
     for (int i = 0; i < 60; ++i) {
         const Mesh a = random_soup(random, 20, 1, 0.6).mesh(), b = random_soup(random, 20, 1, 0.6).mesh();
         const Pose3 pose_a = random_pose<3>(random, 1.5), pose_b = random_pose<3>(random, 1.5);
@@ -268,7 +268,7 @@ TEST(MeshQuery, TerrainOfTwentyThousandTriangles) {
     const auto place = [&](const auto& s) { return at(s, pose); };
     const Parts parts(triangles, place);
     const auto placed = place(mesh);
-    Seen seen;
+    AnswerCounts seen;
     for (int i = 0; i < 20; ++i) {
         const Pose3 there{{random.uniform_float(-55, 55), random.uniform_float(-55, 55), random.uniform_float(-1, 4)},
                           random.rotation<3>()};

@@ -124,7 +124,7 @@ void visit_within(const Tree& tree, LeafOf leaf_of, Reach& reach, const Test& te
             next = push_all_but_nearest(test(node, max_measure, measures), measures, node.child, stack, stack_size);
         }
         if (!(next.measure <= max_measure)) continue;
-        const BvhLeaf<D>& leaf = leaf_of(next.ref);
+        const auto& leaf = leaf_of(next.ref);
         for (std::uint32_t bits = test(leaf, max_measure, measures); bits != 0;) {
             const std::uint32_t lane = take_nearest(bits, measures);
             if (measures[lane] > max_measure) break;

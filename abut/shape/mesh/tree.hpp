@@ -78,8 +78,9 @@ MeshTree build_mesh_tree(std::span<const Vec3> points, std::span<const glm::uvec
 
 /// Visits the triangles whose boxes overlap the box.
 void find_overlapping(const MeshTree& tree, const Aabb3& box, ItemCall visit);
-/// Visits the triangles whose boxes are within reach of a ray, a moving box or a box; nearest child first.
+/// Visits the triangles that a ray or moving box touches within reach, and few others; nearest child first.
 void find_within(const MeshTree& tree, const RayReach<3>& reach, ReachCall visit);
+/// Visits the triangles whose boxes are within reach of a box; nearest child first.
 void find_within(const MeshTree& tree, const BoxReach<3>& reach, ReachCall visit);
 
 }  // namespace abut::detail

@@ -35,6 +35,9 @@ HWY_INLINE V dot(const V3& a, const V3& b) {
 struct V2 {
     V x, y;
 };
+HWY_INLINE V2 minus(const V2& a, const V2& b) {
+    return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y)};
+}
 
 /// Rows of numbers of a leaf's vertices: in registers where one holds a row, else in memory.
 template <int count>
