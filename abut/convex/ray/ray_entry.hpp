@@ -11,6 +11,8 @@
 #include <abut/convex/feature.hpp>
 #include <abut/convex/support.hpp>
 
+#include <array>
+
 namespace abut::detail {
 
 /// A ray in double.
@@ -41,5 +43,11 @@ struct RayEntry {
 /// flatness of its faces). With `more_radius`, the entry into all points within that of the set.
 template <int D>
 RayEntry<D> ray_entry(const Convex<D>& convex, const DRay<D>& ray, double more_radius = 0);
+
+/// The entry into all points within `radius` of the sum of a segment from -half to half and of a segment or triangle,
+/// whose corners are relative to the ray's origin: the impact of a moving capsule. The feature is that of the segment
+/// or triangle; `part` is the place of the contact on the moving segment, from -1 to 1.
+RayEntry<3> enter_rounded_sum(const DRay<3>& ray, const std::array<DVec<3>, 3>& corners, std::uint32_t count,
+                              const DVec<3>& half, double radius, double& part);
 
 }  // namespace abut::detail

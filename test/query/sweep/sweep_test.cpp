@@ -211,7 +211,8 @@ TEST(Sweep, OfRoundAndOfUsersShapes) {
 }
 
 TEST(Sweep, IsEarlyAndNotMissedWhereTheSearchGivesUp) {
-    const Capsule3 a{{-9, 0, 0}, {-8, 0.3f, 0.2f}, 0.5f}, b{{0, -2, 0}, {0, 2, 0.7f}, 0.5f};
+    const Capsule3 a{{-9, 0, 0}, {-8, 0.3f, 0.2f}, 0.5f};
+    const auto b = rounded(Box3{{0, 0, 0}, {0.1f, 2, 0.1f}, glm::quat(0.6f, 0, 0, 0.8f)}, 0.4f);
     const Path<3> path{normalized(DVec<3>(1, 0.01, 0.02)), 20};
     LinearImpact<3> whole, early;
     ASSERT_TRUE(time_of_impact(view(a), path, view(b), 0, {}, whole));
