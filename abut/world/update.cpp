@@ -136,10 +136,11 @@ void World<D>::test_near(Executor* executor) {
             return memory;
         };
         const std::uint32_t memory = take();
+        const std::size_t begin = near_.size() * part / parts, end = near_.size() * (part + 1) / parts;
         detail::PairResults<D>& results = part == 0 ? results_ : state.later_parts[part - 1];
         results.clear();
-        PairTests(*this, state.memories[memory], results, part == 0)
-            .run(near_.size() * part / parts, near_.size() * (part + 1) / parts);
+        if (part > 0) results.reserve(end - begin);
+        PairTests(*this, state.memories[memory], results, part == 0).run(begin, end);
         const std::lock_guard lock(mutex);
         state.free_memories.push_back(memory);
     };

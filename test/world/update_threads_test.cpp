@@ -49,14 +49,16 @@ Bits updated(World<D>& world, Executor* executor) {
 template <int D>
 void expect_equal_games(std::uint64_t seed, double continuous) {
     SCOPED_TRACE("seed " + std::to_string(seed));
-    ThreadPool two(2), five(5);
+    ThreadPool one(1), two(2), three(3), four(4);
     Backwards backwards(3);
-    const std::vector<Executor*> executors{nullptr, &two, &five, &backwards};
+    const std::vector<Executor*> executors{nullptr, &one, &two, &three, &four, &backwards};
+    const WorldOptions options{.filter_edges = seed % 5 != 0};
     std::vector<Simulation<D>> games;
     for (std::size_t i = 0; i < executors.size(); ++i) {
-        games.emplace_back(seed, 150, seed % 2 == 0, WorldOptions(), continuous);
+        games.emplace_back(seed, 150, seed % 2 == 0, options, continuous);
         games.back().with_all = true;
     }
+    std::size_t impacts = 0;
     for (int frame = 0; frame < 12; ++frame) {
         std::vector<Bits> found;
         for (std::size_t i = 0; i < executors.size(); ++i) {
@@ -69,8 +71,10 @@ void expect_equal_games(std::uint64_t seed, double continuous) {
             ASSERT_EQ(found.back(), found.front()) << i << " frame " << frame;
             ASSERT_EQ(games[i].world.save(), games.front().world.save()) << i << " frame " << frame;
         }
+        impacts += games.front().world.impacts().size();
     }
     EXPECT_GT(backwards.max_count, 4u) << "there were several parts";
+    EXPECT_EQ(impacts > 0, continuous > 0);
     EXPECT_GT(games.front().world.contacts().size(), 20u);
 }
 

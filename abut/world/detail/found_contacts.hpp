@@ -48,6 +48,10 @@ struct FoundContacts {
         states.clear();
         own_areas.clear();
     }
+    void reserve(std::size_t count) {
+        contacts.reserve(count);
+        states.reserve(count);
+    }
     void reserve_like(const FoundContacts& other) {
         contacts.reserve(other.contacts.capacity());
         states.reserve(other.states.capacity());

@@ -22,6 +22,11 @@ struct PairResults {
         passed.clear();
         tested = balls = 0;
     }
+    /// For the results of this many pairs without parts.
+    void reserve(std::size_t pairs) {
+        touching.reserve(pairs);
+        found.reserve(pairs);
+    }
     /// Appends the results of later pairs.
     void append(const PairResults& later) {
         touching.insert(touching.end(), later.touching.begin(), later.touching.end());

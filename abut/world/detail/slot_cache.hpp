@@ -2,7 +2,6 @@
 
 // A direct-mapped cache of values of items.
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -11,7 +10,7 @@
 
 namespace abut::detail {
 
-/// It takes no memory before its first use.
+/// Nothing is cached, and no memory taken, before the first clear().
 template <class Value>
 class SlotCache {
 public:
@@ -20,10 +19,6 @@ public:
     /// The value of a slot, made by `make()` if it isn't cached. Valid until the next call.
     template <class Make>
     Value& of(std::uint32_t slot, const Make& make) {
-        if (values_.empty()) {
-            values_.resize(count_);
-            slots_.assign(count_, none);
-        }
         const std::size_t place = slot % count_;
         if (slots_[place] != slot) {
             slots_[place] = slot;
@@ -31,7 +26,10 @@ public:
         }
         return values_[place];
     }
-    void clear() { std::fill(slots_.begin(), slots_.end(), none); }
+    void clear() {
+        values_.resize(count_);
+        slots_.assign(count_, none);
+    }
 
 private:
     static_assert(std::is_trivially_destructible_v<Value>);
