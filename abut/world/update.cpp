@@ -137,10 +137,13 @@ void World<D>::test_near(Executor* executor) {
         };
         const std::uint32_t memory = take();
         const std::size_t begin = near_.size() * part / parts, end = near_.size() * (part + 1) / parts;
-        detail::PairResults<D>& results = part == 0 ? results_ : state.later_parts[part - 1];
+        detail::PairResults<D>& stored = part == 0 ? results_ : state.later_parts[part - 1];
+        // On the stack, off the cache lines that other threads use.
+        detail::PairResults<D> results = std::move(stored);
         results.clear();
         if (part > 0) results.reserve(end - begin);
         PairTests(*this, state.memories[memory], results, part == 0).run(begin, end);
+        stored = std::move(results);
         const std::lock_guard lock(mutex);
         state.free_memories.push_back(memory);
     };

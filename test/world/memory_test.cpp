@@ -57,13 +57,13 @@ void expect_little(const char* name, const S& shape) {
     }
     std::cout << name << ": " << max_bytes.added << " bytes added, " << max_bytes.updated << " updated, "
               << max_bytes.moved << " moved\n";
-    constexpr double limit = 272 + sizeof(S), growth = 1.25;
+    constexpr double limit = 280 + sizeof(S), growth = 1.25;
     EXPECT_LT(max_bytes.updated, limit);
     // Moved items need their previous pose and an entry in the list of changed items.
     EXPECT_LT(max_bytes.moved, limit + growth * (sizeof(Pose<D>) + sizeof(std::uint32_t)));
 }
 
-// Measured after an update of 64,000 to 100,000 items: 227 bytes for a circle, 282 for a sphere, 298 for a 3D box.
+// Measured after an update of 64,000 to 100,000 items: 234 bytes for a circle, 290 for a sphere, 306 for a 3D box.
 TEST(Memory, OfAnItem) {
     expect_little<2>("circle", Circle{{0, 0}, 1});
     expect_little<2>("box in 2D", Box2{{0, 0}, {1, 1}});
