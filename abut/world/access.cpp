@@ -1,14 +1,12 @@
 // The options of an item: reading and changing them.
 
-#include <abut/math/assert.hpp>
 #include <abut/world/world.hpp>
 
 namespace abut {
 
 template <int D>
 ItemOptions<D> World<D>::options(Id id) const {
-    const Item* item = find(id);
-    ABUT_ASSERT(item != nullptr);
+    const Item* item = expected(id);
     if (item == nullptr) return {.layers = 0, .mask = 0, .enabled = false};
     return item->options();
 }
@@ -44,15 +42,13 @@ bool World<D>::is_enabled(Id id) const {
 
 template <int D>
 void World<D>::set_user(Id id, std::uint64_t user) {
-    Item* item = find(id);
-    ABUT_ASSERT(item != nullptr);
+    Item* item = expected(id);
     if (item != nullptr) item->user = user;
 }
 
 template <int D>
 void World<D>::set_fixed(Id id, bool fixed) {
-    Item* item = find(id);
-    ABUT_ASSERT(item != nullptr);
+    Item* item = expected(id);
     if (item == nullptr || item->fixed == fixed) return;
     const Aabb<D> own = box(id.index - 1);
     boxes_of(*item).remove(item->place);
@@ -64,8 +60,7 @@ void World<D>::set_fixed(Id id, bool fixed) {
 
 template <int D>
 void World<D>::set_sensor(Id id, bool sensor) {
-    Item* item = find(id);
-    ABUT_ASSERT(item != nullptr);
+    Item* item = expected(id);
     if (item == nullptr || item->sensor == sensor) return;
     item->sensor = sensor;
     mark_pending(id.index - 1);
@@ -73,8 +68,7 @@ void World<D>::set_sensor(Id id, bool sensor) {
 
 template <int D>
 void World<D>::set_continuous(Id id, bool continuous) {
-    Item* item = find(id);
-    ABUT_ASSERT(item != nullptr);
+    Item* item = expected(id);
     if (item == nullptr || item->continuous == continuous) return;
     item->continuous = continuous;
     if (continuous)
@@ -85,8 +79,7 @@ void World<D>::set_continuous(Id id, bool continuous) {
 
 template <int D>
 void World<D>::set_group(Id id, std::int32_t group) {
-    Item* item = find(id);
-    ABUT_ASSERT(item != nullptr);
+    Item* item = expected(id);
     if (item == nullptr || item->group == group) return;
     item->group = group;
     mark_pending(id.index - 1);
@@ -94,13 +87,10 @@ void World<D>::set_group(Id id, std::int32_t group) {
 
 template <int D>
 void World<D>::set_enabled(Id id, bool enabled) {
-    Item* item = find(id);
-    ABUT_ASSERT(item != nullptr);
+    Item* item = expected(id);
     if (item == nullptr || item->enabled == enabled) return;
     item->enabled = enabled;
-    item->settled = false;
-    item->previous = none;
-    update_box(id.index - 1);
+    reset_item(id.index - 1);
 }
 
 template <int D>

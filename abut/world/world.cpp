@@ -16,9 +16,17 @@ const typename World<D>::Item* World<D>::find(Id id) const {
     return item.in_use && item.generation == id.generation ? &item : nullptr;
 }
 
+/// The item of an id that should not be stale; null if it is.
 template <int D>
-typename World<D>::Item* World<D>::find(Id id) {
-    return const_cast<Item*>(std::as_const(*this).find(id));
+const typename World<D>::Item* World<D>::expected(Id id) const {
+    const Item* const item = find(id);
+    ABUT_ASSERT(item != nullptr);
+    return item;
+}
+
+template <int D>
+typename World<D>::Item* World<D>::expected(Id id) {
+    return const_cast<Item*>(std::as_const(*this).expected(id));
 }
 
 template <int D>
@@ -51,7 +59,7 @@ void World<D>::add_to_boxes(std::uint32_t slot) {
     query_count_.set_limit(query_limit());
 }
 
-/// Begins anew with an item whose shape is new.
+/// Begins anew with an item whose shape is new, or that was not enabled.
 template <int D>
 void World<D>::reset_item(std::uint32_t slot) {
     Item& item = items_[slot];
@@ -70,8 +78,7 @@ void World<D>::set_shape_data(Item& item) {
 
 template <int D>
 void World<D>::set_any_shape(Id id, const AnyShape<D>& shape) {
-    Item* item = find(id);
-    ABUT_ASSERT(item != nullptr);
+    Item* item = expected(id);
     if (item == nullptr) return;
     release_shape(id.index - 1);
     item->stored = shape;
@@ -80,8 +87,7 @@ void World<D>::set_any_shape(Id id, const AnyShape<D>& shape) {
 
 template <int D>
 void World<D>::move_to(Id id, const Pose<D>& pose) {
-    Item* item = find(id);
-    ABUT_ASSERT(item != nullptr);
+    Item* item = expected(id);
     if (item == nullptr || item->pose == pose) return;
     if (item->settled && item->previous == none) {
         item->previous = static_cast<std::uint32_t>(previous_poses_.size());
@@ -94,8 +100,7 @@ void World<D>::move_to(Id id, const Pose<D>& pose) {
 
 template <int D>
 void World<D>::set_filter(Id id, std::uint64_t layers, std::uint64_t mask) {
-    Item* item = find(id);
-    ABUT_ASSERT(item != nullptr);
+    Item* item = expected(id);
     if (item == nullptr) return;
     item->layers = layers;
     item->mask = mask;
@@ -160,29 +165,25 @@ bool World<D>::contains(Id id) const {
 
 template <int D>
 std::uint64_t World<D>::user(Id id) const {
-    const Item* item = find(id);
-    ABUT_ASSERT(item != nullptr);
+    const Item* item = expected(id);
     return item != nullptr ? item->user : 0;
 }
 
 template <int D>
 Pose<D> World<D>::pose(Id id) const {
-    const Item* item = find(id);
-    ABUT_ASSERT(item != nullptr);
+    const Item* item = expected(id);
     return item != nullptr ? item->pose : Pose<D>{};
 }
 
 template <int D>
 View<D> World<D>::shape(Id id) const {
-    const Item* item = find(id);
-    ABUT_ASSERT(item != nullptr);
+    const Item* item = expected(id);
     return item != nullptr ? placed(*item) : View<D>();
 }
 
 template <int D>
 AnyShape<D> World<D>::any_shape(Id id) const {
-    const Item* item = find(id);
-    ABUT_ASSERT(item != nullptr);
+    const Item* item = expected(id);
     return item != nullptr ? item->stored : AnyShape<D>(Ball<D>{});
 }
 

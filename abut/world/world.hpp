@@ -369,7 +369,8 @@ private:
     void restore_item(const SavedItem& saved);
     void set_any_shape(Id id, const AnyShape<D>& shape);
     const Item* find(Id id) const;
-    Item* find(Id id);
+    const Item* expected(Id id) const;
+    Item* expected(Id id);
     Id id_of(std::uint32_t slot) const { return {slot + 1, items_[slot].generation}; }
     detail::ItemBoxes<D>& boxes_of(const Item& item) { return item.fixed ? fixed_ : moving_; }
     /// The item's AABB; empty for a free slot, and for an item that is not finite or has no parts.

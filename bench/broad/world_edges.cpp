@@ -153,26 +153,18 @@ struct CrowdedWorld {
     std::vector<Id> ids;
 };
 
+/// An update in which all loose items have moved, measured with or without the moves.
 template <int D>
-Side update(std::string who, const Crowd<D>& crowd, bool filter_edges) {
+Side update(std::string who, const Crowd<D>& crowd, bool filter_edges, bool with_moves = true,
+            const std::shared_ptr<Executor>& executor = nullptr) {
     const auto state = std::make_shared<CrowdedWorld<D>>(crowd, filter_edges);
-    const auto run = [state](std::span<double> values) {
-        state->move_all();
-        values[0] = state->touching(state->world.update());
-    };
-    return {std::move(who), run, [state] { state->shaken.shake(); }};
-}
-
-/// The update alone, without the moves.
-template <int D>
-Side update_by(std::string who, const Crowd<D>& crowd, const std::shared_ptr<Executor>& executor) {
-    const auto state = std::make_shared<CrowdedWorld<D>>(crowd);
-    const auto run = [state, executor](std::span<double> values) {
+    const auto run = [state, with_moves, executor](std::span<double> values) {
+        if (with_moves) state->move_all();
         values[0] = state->touching(executor != nullptr ? state->world.update(*executor) : state->world.update());
     };
-    return {std::move(who), run, [state] {
+    return {std::move(who), run, [state, with_moves] {
                 state->shaken.shake();
-                state->move_all();
+                if (!with_moves) state->move_all();
             }};
 }
 
@@ -234,8 +226,8 @@ Bench threads(std::string scene, std::function<Crowd<D>()> make) {
                 .frames = 10,
                 .on_the_wall = true,
                 .tolerance = 0,
-                .sides = {update_by("abut, 2 threads", crowd, std::make_shared<ThreadPool>(2)),
-                          update_by<D>("abut", crowd, nullptr)}};
+                .sides = {update("abut, 2 threads", crowd, true, false, std::make_shared<ThreadPool>(2)),
+                          update("abut", crowd, true, false)}};
     };
     return {"broad/world/threads/" + std::move(scene), job};
 }

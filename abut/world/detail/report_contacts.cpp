@@ -11,24 +11,6 @@ namespace abut {
 
 using namespace detail;
 
-namespace {
-
-/// Calls visit(pair) for the pairs that only one of two sorted lists has.
-template <class Visit>
-void each_difference(const std::vector<IdPair>& first, const std::vector<IdPair>& second, const Visit& visit) {
-    auto a = first.begin(), b = second.begin();
-    while (a != first.end() || b != second.end()) {
-        if (b == second.end() || (a != first.end() && *a < *b))
-            visit(*a++);
-        else if (a == first.end() || *b < *a)
-            visit(*b++);
-        else
-            ++a, ++b;
-    }
-}
-
-}  // namespace
-
 /// Whether contacts of the item are filtered for its sake. A fixed item is not pushed, so no normal matters to it.
 template <int D>
 bool World<D>::filters_edges(std::uint32_t slot) const {
@@ -40,18 +22,17 @@ template <int D>
 void World<D>::find_changed_neighbours() {
     std::vector<char>& changed = memory_->neighbour_changed;
     changed.assign(items_.size(), false);
-    for (const std::vector<IdPair>* pairs : {&near_, &last_near_})
-        for (const IdPair& pair : *pairs) {
+    const auto mark = [&](const std::vector<IdPair>& pairs, const std::vector<IdPair>& others) {
+        for (const IdPair& pair : pairs) {
             const std::uint32_t a = pair.a.index - 1, b = pair.b.index - 1;
-            if (items_[a].pending) changed[b] = true;
-            if (items_[b].pending) changed[a] = true;
+            // A pair filter may change its answer for items that did not change.
+            const bool is_new = filters_pairs_ && !std::binary_search(others.begin(), others.end(), pair);
+            if (items_[a].pending || is_new) changed[b] = true;
+            if (items_[b].pending || is_new) changed[a] = true;
         }
-    if (!filters_pairs_) return;
-    // A pair filter may change its answer for items that did not change.
-    each_difference(near_, last_near_, [&](const IdPair& pair) {
-        changed[pair.a.index - 1] = true;
-        changed[pair.b.index - 1] = true;
-    });
+    };
+    mark(near_, last_near_);
+    mark(last_near_, near_);
 }
 
 /// Whether an item near one of the two has changed.

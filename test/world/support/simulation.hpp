@@ -89,59 +89,43 @@ public:
             reference.add(id, shape, options);
         });
     }
+    /// change(world) for the world and for the reference world.
+    template <class Change>
+    void in_both(const Change& change) {
+        change(world);
+        change(reference);
+    }
     void remove(Id id) {
-        world.remove(id);
-        reference.remove(id);
+        in_both([&](auto& each) { each.remove(id); });
     }
     void move(Id id, const Pose<D>& pose) {
-        world.move(id, pose);
-        reference.move(id, pose);
+        in_both([&](auto& each) { each.move(id, pose); });
     }
     void set_shape(Id id) {
-        with_any_shape([&](const auto& shape) {
-            world.set_shape(id, shape);
-            reference.set_shape(id, shape);
-        });
+        with_any_shape([&](const auto& shape) { in_both([&](auto& each) { each.set_shape(id, shape); }); });
     }
     void set_filter(Id id) {
         const std::uint64_t layers = random_bits(), mask = random_bits();
-        world.set_filter(id, layers, mask);
-        reference.set_filter(id, layers, mask);
+        in_both([&](auto& each) { each.set_filter(id, layers, mask); });
     }
 
     void set_an_option(Id id) {
         switch (random_.below(6)) {
-            case 0: {
-                const bool fixed = random_.chance(0.3);
-                world.set_fixed(id, fixed);
-                return reference.set_fixed(id, fixed);
-            }
-            case 1: {
-                const bool sensor = random_.chance(0.15);
-                world.set_sensor(id, sensor);
-                return reference.set_sensor(id, sensor);
-            }
+            case 0:
+                return in_both([&, fixed = random_.chance(0.3)](auto& each) { each.set_fixed(id, fixed); });
+            case 1:
+                return in_both([&, sensor = random_.chance(0.15)](auto& each) { each.set_sensor(id, sensor); });
             case 2: {
                 // A single continuous item makes the broad phases use all swept AABBs.
                 const bool continuous = continuous_ > 0 && random_.chance(continuous_);
-                world.set_continuous(id, continuous);
-                return reference.set_continuous(id, continuous);
+                return in_both([&](auto& each) { each.set_continuous(id, continuous); });
             }
-            case 3: {
-                const std::int32_t group = any_group();
-                world.set_group(id, group);
-                return reference.set_group(id, group);
-            }
-            case 4: {
-                const bool enabled = random_.chance(0.9);
-                world.set_enabled(id, enabled);
-                return reference.set_enabled(id, enabled);
-            }
-            default: {
-                const std::uint64_t user = random_.bits();
-                world.set_user(id, user);
-                return reference.set_user(id, user);
-            }
+            case 3:
+                return in_both([&, group = any_group()](auto& each) { each.set_group(id, group); });
+            case 4:
+                return in_both([&, enabled = random_.chance(0.9)](auto& each) { each.set_enabled(id, enabled); });
+            default:
+                return in_both([&, user = random_.bits()](auto& each) { each.set_user(id, user); });
         }
     }
 
