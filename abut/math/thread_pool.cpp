@@ -25,34 +25,52 @@ struct ThreadPool::State {
     // By the mutex.
     const Part* part = nullptr;
     std::uint32_t count = 0;
-    std::uint64_t job = 0;    ///< the number of jobs so far
-    std::size_t running = 0;  ///< threads that have not ended the present job
+    std::uint32_t job = 0;  ///< the number of jobs so far
     bool is_closed = false;
     // By all workers at once.
-    std::atomic<std::uint32_t> next = 0;
+    std::atomic<std::uint64_t> next = 0;  ///< the number of the job, and in the lower half of the part
+    std::atomic<std::uint32_t> unfinished = 0;
     std::vector<std::thread> threads;
 
-    void run_parts(const Part& of_job, std::uint32_t parts) {
+    std::uint32_t present_job() const { return static_cast<std::uint32_t>(next.load(std::memory_order_acquire) >> 32); }
+
+    /// Runs parts of a job as long as there are any. A thread that wakes up too late runs none: by then `of_job` may be
+    /// gone, and the next job begun.
+    void run_parts(std::uint32_t its_job, const Part& of_job, std::uint32_t parts) {
         runs_a_part = true;
-        for (std::uint32_t i = next.fetch_add(1, std::memory_order_relaxed); i < parts;
-             i = next.fetch_add(1, std::memory_order_relaxed))
-            of_job(i);
+        std::uint32_t finished = 0;
+        std::uint64_t ticket = next.load(std::memory_order_relaxed);
+        while (ticket >> 32 == its_job && static_cast<std::uint32_t>(ticket) < parts) {
+            if (!next.compare_exchange_weak(ticket, ticket + 1, std::memory_order_relaxed)) continue;
+            of_job(static_cast<std::uint32_t>(ticket));
+            ++finished;
+            ticket = next.load(std::memory_order_relaxed);
+        }
         runs_a_part = false;
+        if (finished == 0 || unfinished.fetch_sub(finished, std::memory_order_acq_rel) > finished) return;
+        const std::lock_guard lock(mutex);
+        ended.notify_one();
     }
     void work() {
-        std::uint64_t seen = 0;
-        std::unique_lock lock(mutex);
+        std::uint32_t seen = 0;
         for (;;) {
+            look_for([&] { return present_job() != seen; });
+            std::unique_lock lock(mutex);
             started.wait(lock, [&] { return is_closed || job != seen; });
             if (is_closed) return;
             seen = job;
             const Part& of_job = *part;
             const std::uint32_t parts = count;
             lock.unlock();
-            run_parts(of_job, parts);
-            lock.lock();
-            if (--running == 0) ended.notify_one();
+            run_parts(seen, of_job, parts);
         }
+    }
+
+    /// Waits a while, about as long as it takes to wake a thread up: a call of the library has several jobs.
+    template <class Condition>
+    static void look_for(const Condition& condition) {
+        constexpr int tries = 200;
+        for (int i = 0; i < tries && !condition(); ++i) std::this_thread::yield();
     }
 };
 
@@ -89,14 +107,15 @@ void ThreadPool::run(std::uint32_t count, FunctionRef<void(std::uint32_t)> part)
         const std::lock_guard lock(state_->mutex);
         state_->part = &part;
         state_->count = count;
-        state_->next.store(0, std::memory_order_relaxed);
-        state_->running = state_->threads.size();
-        ++state_->job;
+        state_->unfinished.store(count, std::memory_order_relaxed);
+        state_->next.store(std::uint64_t{++state_->job} << 32, std::memory_order_release);
     }
     state_->started.notify_all();
-    state_->run_parts(part, count);
+    state_->run_parts(state_->job, part, count);
+    const auto has_ended = [&] { return state_->unfinished.load(std::memory_order_acquire) == 0; };
+    State::look_for(has_ended);
     std::unique_lock lock(state_->mutex);
-    state_->ended.wait(lock, [&] { return state_->running == 0; });
+    state_->ended.wait(lock, has_ended);
 }
 
 }  // namespace abut

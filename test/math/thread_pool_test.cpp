@@ -3,7 +3,9 @@
 #include <abut/math/thread_pool.hpp>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <chrono>
 #include <cstdlib>
 #include <numeric>
 #include <thread>
@@ -40,6 +42,30 @@ TEST(ThreadPool, RunsPartsAtTheSameTime) {
         while (arrived < 2) std::this_thread::yield();
     });
     EXPECT_EQ(arrived, 2);
+}
+
+// The caller has run its own part long before.
+TEST(ThreadPool, WaitsForThePartsOfOtherThreads) {
+    ThreadPool pool(2);
+    const std::thread::id caller = std::this_thread::get_id();
+    std::atomic<int> arrived = 0, ended = 0;
+    pool.run(2, [&](std::uint32_t) {
+        ++arrived;
+        while (arrived < 2) std::this_thread::yield();
+        if (std::this_thread::get_id() != caller) std::this_thread::sleep_for(std::chrono::milliseconds(30));
+        ++ended;
+    });
+    EXPECT_EQ(ended, 2);
+}
+
+// A thread that wakes up when its job has ended, and the next one has begun, takes no part of either away.
+TEST(ThreadPool, JobsMayBeShorterThanAWakeUp) {
+    ThreadPool pool(4);
+    for (int job = 0; job < 50'000; ++job) {
+        std::array<std::atomic<int>, 5> runs{};
+        pool.run(5, [&](std::uint32_t i) { ++runs[i]; });
+        for (const std::atomic<int>& each : runs) ASSERT_EQ(each, 1) << job;
+    }
 }
 
 TEST(ThreadPool, APartMayRunAJob) {
