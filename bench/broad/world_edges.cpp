@@ -201,35 +201,37 @@ Side contacts_without_world(const Crowd<D>& crowd) {
     return {"abut without World", run, [state] { state->shaken.shake(); }};
 }
 
-template <int D>
-Bench edges(std::string scene, std::function<Crowd<D>()> make) {
-    const auto job = [make = std::move(make)]() -> Job {
-        const Crowd<D> crowd = make();
-        return {.items = crowd.items.size(),
-                .values = 1,
-                .rounds = 4,
-                .frames = 10,
-                .tolerance = 1,  // touching is decided to within the tolerance
-                .sides = {update("abut", crowd, true), update("abut without filter", crowd, false),
-                          contacts_without_world(crowd)}};
-    };
-    return {"broad/world/edges/" + std::move(scene), job};
+/// job_of(crowd) is the job, without its sizes.
+template <int D, class JobOf>
+Bench of_crowd(std::string name, std::function<Crowd<D>()> make, const JobOf& job_of) {
+    return {std::move(name), [make = std::move(make), job_of] {
+                const Crowd<D> crowd = make();
+                Job job = job_of(crowd);
+                job.items = crowd.items.size();
+                job.values = 1;
+                job.rounds = 4;
+                job.frames = 10;
+                return job;
+            }};
 }
 
 template <int D>
-Bench threads(std::string scene, std::function<Crowd<D>()> make) {
-    const auto job = [make = std::move(make)]() -> Job {
-        const Crowd<D> crowd = make();
-        return {.items = crowd.items.size(),
-                .values = 1,
-                .rounds = 4,
-                .frames = 10,
-                .on_the_wall = true,
+Bench edges(const std::string& scene, std::function<Crowd<D>()> make) {
+    return of_crowd<D>("broad/world/edges/" + scene, std::move(make), [](const Crowd<D>& crowd) -> Job {
+        return {.tolerance = 1,  // touching is decided to within the tolerance
+                .sides = {update("abut", crowd, true), update("abut without filter", crowd, false),
+                          contacts_without_world(crowd)}};
+    });
+}
+
+template <int D>
+Bench threads(const std::string& scene, std::function<Crowd<D>()> make) {
+    return of_crowd<D>("broad/world/threads/" + scene, std::move(make), [](const Crowd<D>& crowd) -> Job {
+        return {.on_the_wall = true,
                 .tolerance = 0,
                 .sides = {update("abut, 2 threads", crowd, true, false, std::make_shared<ThreadPool>(2)),
                           update("abut", crowd, true, false)}};
-    };
-    return {"broad/world/threads/" + std::move(scene), job};
+    });
 }
 
 }  // namespace
