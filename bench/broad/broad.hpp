@@ -34,6 +34,8 @@ std::vector<Bench> box_query_benches();
 std::vector<Bench> thread_benches();
 std::vector<Bench> temporal_benches();
 std::vector<Bench> world_benches();
+/// A frame of a World in which all loose items move.
+std::vector<Bench> world_frame_benches();
 /// The cost of the filter of internal edges.
 std::vector<Bench> world_edge_benches();
 /// Many rays into a World in one call.
