@@ -175,7 +175,7 @@ Side update(std::string who, const Crowd<D>& crowd, bool filter_edges, bool with
             }};
 }
 
-/// The contacts of all pairs by a broad phase and `contact`, without a World.
+/// Lists the contacts of all pairs, by a broad phase and `contact`, without a World.
 template <int D>
 Side contacts_without_world(const Crowd<D>& crowd) {
     struct State {
@@ -196,18 +196,20 @@ Side contacts_without_world(const Crowd<D>& crowd) {
         std::vector<View<D>> views;
         std::vector<Aabb<D>> boxes;
         ChosenBroadPhase<D> phase;
+        std::vector<WorldContact<D>> contacts;
     };
     const auto state = std::make_shared<State>(crowd);
     const auto run = [state](std::span<double> values) {
         state->place_loose();
         state->phase.update(state->boxes);
-        std::size_t touching = 0;
+        state->contacts.clear();
         const auto& items = state->shaken.crowd.items;
         state->phase.each_pair([&](std::uint32_t i, std::uint32_t j) {
             if (items[i].fixed && items[j].fixed) return;
-            touching += contact(state->views[i], state->views[j]) ? 1u : 0u;
+            if (const Contact<D> found = contact(state->views[i], state->views[j]))
+                state->contacts.push_back({{i, 1}, {j, 1}, found});
         });
-        values[0] = static_cast<double>(touching);
+        values[0] = static_cast<double>(state->contacts.size());
     };
     return {"abut without World", run, [state] { state->shaken.shake(); }};
 }
