@@ -47,6 +47,16 @@ public:
     /// rounding (1e-7 of the shape's size), and a sweep one that it misses by the tolerance. The margin covers the part
     /// of the tolerance that grows with the larger of two shapes.
     Aabb<D> bounds_for_queries(const Pose<D>& pose) const { return stored_->bounds(pose, true); }
+    /// Calls edit(shape) if the shape is an S, and returns whether it is. If other copies share the data, it is a copy
+    /// of the shape, and those don't change.
+    template <Ownable S, class F>
+    bool edit(F&& edit) {
+        if (stored_->type() != &type_of<S>) return false;
+        const auto own = [this]() -> S& { return static_cast<StoredOf<S>&>(*stored_).shape; };
+        if (stored_->is_shared()) stored_ = store(own());
+        edit(own());
+        return true;
+    }
     /// Whether both are copies of one AnyShape, which share its data.
     bool is_shared_with(const AnyShape& other) const { return stored_ == other.stored_; }
 
@@ -56,7 +66,11 @@ private:
         virtual View<D> view() const = 0;
         virtual View<D> moved(const detail::Affine<D>& rigid) const = 0;
         virtual Aabb<D> bounds(const Pose<D>& pose, bool grow) const = 0;
+        virtual const char* type() const = 0;
     };
+    /// Its address stands for the type. Users may compile without type information.
+    template <class S>
+    static inline char type_of = 0;
     template <class S>
     struct StoredOf final : Stored {
         explicit StoredOf(S s) : shape(std::move(s)) {}
@@ -85,14 +99,16 @@ private:
                 return detail::bounds_at<D>(moved(detail::affine(pose)), grow);
         }
 
-        const S shape;
+        const char* type() const override { return &type_of<S>; }
+
+        S shape;
     };
     template <class S>
-    static detail::CountedPointer<const Stored> store(S shape) {
-        return detail::CountedPointer<const Stored>(new const StoredOf<S>(std::move(shape)));
+    static detail::CountedPointer<Stored> store(S shape) {
+        return detail::CountedPointer<Stored>(new StoredOf<S>(std::move(shape)));
     }
 
-    detail::CountedPointer<const Stored> stored_;
+    detail::CountedPointer<Stored> stored_;
 };
 
 template <int D>

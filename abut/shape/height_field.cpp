@@ -3,6 +3,8 @@
 #include <abut/shape/detail/grid_hierarchy.hpp>
 #include <abut/shape/height_field.hpp>
 
+#include <algorithm>
+#include <optional>
 #include <vector>
 
 namespace abut {
@@ -22,6 +24,13 @@ HeightRange merged(const HeightRange& a, const HeightRange& b) {
 
 Aabb3 box_of(const Triangle3& t) {
     return merged(merged(Aabb3{t.a, t.a}, Aabb3{t.b, t.b}), Aabb3{t.c, t.c});
+}
+
+std::optional<Problem> not_finite(std::span<const float> heights) {
+    const auto found = std::ranges::find_if_not(heights, [](float height) { return std::isfinite(height); });
+    if (found == heights.end()) return std::nullopt;
+    const auto i = static_cast<std::size_t>(found - heights.begin());
+    return Problem{ProblemCode::not_finite, "height " + std::to_string(i) + " is not finite", i};
 }
 
 /// A box that overlaps at most this many cells visits them directly, without the hierarchy.
@@ -50,6 +59,9 @@ struct HeightField::Data {
         if (is_hole(cell_at(x, y))) return {};
         const float a = height(x, y), b = height(x + 1, y), c = height(x + 1, y + 1), d = height(x, y + 1);
         return {std::min(std::min(a, b), std::min(c, d)), std::max(std::max(a, b), std::max(c, d))};
+    }
+    void update_cells(const glm::uvec2& first, const glm::uvec2& end) {
+        blocks.update(first, end, [this](std::uint32_t x, std::uint32_t y) { return of_cell(x, y); });
     }
     Aabb3 box_of_block(std::uint32_t level, std::uint32_t x, std::uint32_t y) const {
         const HeightRange z = level == 0 ? of_cell(x, y) : blocks.at(level, x, y);
@@ -97,9 +109,7 @@ Result<HeightField> HeightField::build(std::span<const float> heights, std::uint
     constexpr std::size_t max_cells = std::size_t{1} << 30;
     if ((columns - 1) * (rows - 1) > max_cells)
         return Problem{ProblemCode::too_large, "a height field has at most 2^30 cells", max_cells};
-    for (std::size_t i = 0; i < heights.size(); ++i)
-        if (!std::isfinite(heights[i]))
-            return Problem{ProblemCode::not_finite, "height " + std::to_string(i) + " is not finite", i};
+    if (std::optional<Problem> problem = not_finite(heights)) return *std::move(problem);
     const Vec2 extent(cell.x * static_cast<float>(columns - 1), cell.y * static_cast<float>(rows - 1));
     if (!(cell.x > 0 && cell.y > 0 && is_finite(extent)))
         return Problem{ProblemCode::bad_argument, "the cells' sizes must be above zero, and their places finite", 0};
@@ -125,6 +135,52 @@ Result<HeightField> HeightField::build(std::span<const float> heights, std::uint
 Result<HeightField> HeightField::build(std::span<const float> heights, std::uint32_t columns, float cell,
                                        const HeightFieldOptions& options) {
     return build(heights, columns, Vec2(cell, cell), options);
+}
+
+/// The data, of which a copy is made if they are shared.
+HeightField::Data& HeightField::own_data() {
+    if (data_.use_count() > 1) data_ = std::make_shared<Data>(*data_);
+    return *data_;
+}
+
+std::optional<Problem> HeightField::set(std::uint32_t column, std::uint32_t row, std::uint32_t block_columns,
+                                        std::span<const float> heights) {
+    detail::enter_library();
+    if (heights.empty()) return std::nullopt;
+    if (block_columns == 0 || heights.size() % block_columns != 0)
+        return Problem{
+            ProblemCode::bad_argument,
+            std::to_string(heights.size()) + " heights are no whole number of rows of " + std::to_string(block_columns),
+            0};
+    const std::size_t block_rows = heights.size() / block_columns;
+    if (column > columns() || block_columns > columns() - column || row > rows() || block_rows > rows() - row)
+        return Problem{ProblemCode::index_out_of_range,
+                       std::to_string(block_columns) + " by " + std::to_string(block_rows) + " heights at column " +
+                           std::to_string(column) + " and row " + std::to_string(row) + " reach beyond a field of " +
+                           std::to_string(columns()) + " by " + std::to_string(rows()),
+                       0};
+    if (std::optional<Problem> problem = not_finite(heights)) return problem;
+    Data& data = own_data();
+    for (std::size_t j = 0; j < block_rows; ++j)
+        std::ranges::copy(heights.subspan(j * block_columns, block_columns),
+                          data.heights.begin() + static_cast<std::ptrdiff_t>((row + j) * columns() + column));
+    // The cells around these heights.
+    const glm::uvec2 first(column - std::min(column, 1u), row - std::min(row, 1u));
+    const glm::uvec2 end(std::min(column + block_columns, data.cell_columns()),
+                         std::min(row + static_cast<std::uint32_t>(block_rows), data.cell_rows()));
+    data.update_cells(first, end);
+    return std::nullopt;
+}
+
+void HeightField::set_hole(std::uint32_t cell, bool hole) {
+    detail::enter_library();
+    ABUT_ASSERT(cell < data_->cell_count());
+    if (cell >= data_->cell_count() || is_hole(cell) == hole) return;
+    Data& data = own_data();
+    data.holes.resize(data.cell_count());
+    data.holes[cell] = hole;
+    const glm::uvec2 place(cell % data.cell_columns(), cell / data.cell_columns());
+    data.update_cells(place, place + 1u);
 }
 
 std::span<const float> HeightField::heights() const {

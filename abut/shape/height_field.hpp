@@ -7,6 +7,7 @@
 #include <abut/shape/view/view.hpp>
 
 #include <memory>
+#include <optional>
 #include <span>
 
 namespace abut {
@@ -19,8 +20,8 @@ struct HeightFieldOptions {
 /// The union of the triangles over the cells of a grid, of zero thickness. Height (i, j), the i-th of row j, lies over
 /// the point (i * cell.x, j * cell.y). Heights are along z; `at` rotates them to any other up axis. Each cell has two
 /// triangles, counter-clockwise seen from above, divided by the diagonal from (i, j) to (i + 1, j + 1). Part 2 * cell
-/// is the triangle beside the x axis, part 2 * cell + 1 the other. Immutable: copies share the data. Memory: the
-/// heights, and about 0.6 bytes a cell.
+/// is the triangle beside the x axis, part 2 * cell + 1 the other. Copies share the data until one of them changes.
+/// Memory: the heights, and about 0.6 bytes a cell.
 class HeightField {
 public:
     /// `columns` is the number of heights in a row; `cell` is their spacing along x and y. Returns a Problem if there
@@ -30,6 +31,15 @@ public:
                                      const HeightFieldOptions& options = {});
     static Result<HeightField> build(std::span<const float> heights, std::uint32_t columns, float cell,
                                      const HeightFieldOptions& options = {});
+
+    /// Replaces a block of heights, `block_columns` wide, whose first one is at (column, row). All answers are those of
+    /// a field that is built with them. The time is linear in the block's size, and that of a copy if another field
+    /// shares the data. Returns a Problem if the block's last row is incomplete, if it reaches beyond the field, or if
+    /// a height isn't finite (index: in the block); the field is then unchanged. In a World: World::edit_shape.
+    std::optional<Problem> set(std::uint32_t column, std::uint32_t row, std::uint32_t block_columns,
+                               std::span<const float> heights);
+    /// Removes the triangles of a cell, or adds them again.
+    void set_hole(std::uint32_t cell, bool hole);
 
     std::span<const float> heights() const;
     std::uint32_t columns() const;  ///< number of heights in a row
@@ -45,7 +55,8 @@ public:
 
 private:
     struct Data;
-    explicit HeightField(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
+    explicit HeightField(std::shared_ptr<Data> data) : data_(std::move(data)) {}
+    Data& own_data();
 
     friend Aabb3 bounds(const HeightField& field);
     friend void each_part(const HeightField& field, const Aabb3& box,
@@ -55,7 +66,7 @@ private:
     friend void each_part_near(const HeightField& field, const Aabb3& box,
                                FunctionRef<float(const Triangle3& part, std::uint32_t index)> visit);
 
-    std::shared_ptr<const Data> data_;
+    std::shared_ptr<Data> data_;  // of this field alone before it changes
 };
 
 /// The bounding box; empty if all cells are holes.

@@ -135,6 +135,17 @@ Result<TileMap> TileMap::build(std::span<const Tile> tiles, std::uint32_t column
     return build(tiles, columns, Vec2(cell, cell));
 }
 
+void TileMap::set(std::uint32_t index, Tile tile) {
+    detail::enter_library();
+    ABUT_ASSERT(index < size() && tile <= Tile::one_way_high_y);
+    if (index >= size() || tile > Tile::one_way_high_y) return;
+    if (data_.use_count() > 1) data_ = std::make_shared<Data>(*data_);
+    data_->tiles[index] = tile;
+    const glm::uvec2 place(index % columns(), index / columns());
+    data_->blocks.update(place, place + 1u,
+                         [&](std::uint32_t x, std::uint32_t y) { return std::as_const(*data_).of_tile(x, y); });
+}
+
 std::span<const Tile> TileMap::tiles() const {
     return data_->tiles;
 }

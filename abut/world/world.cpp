@@ -86,6 +86,18 @@ void World<D>::set_any_shape(Id id, const AnyShape<D>& shape) {
 }
 
 template <int D>
+bool World<D>::edit_any_shape(Id id, FunctionRef<bool(AnyShape<D>&)> edit) {
+    Item* item = expected(id);
+    if (item == nullptr) return false;
+    // A copy, if a snapshot may need the shape as it was.
+    release_shape(id.index - 1);
+    const bool is_edited = edit(item->stored);
+    detail::clear_upper_halves();
+    if (is_edited) reset_item(id.index - 1);
+    return is_edited;
+}
+
+template <int D>
 void World<D>::move_to(Id id, const Pose<D>& pose) {
     Item* item = expected(id);
     if (item == nullptr || item->pose == pose) return;

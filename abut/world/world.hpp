@@ -84,6 +84,13 @@ public:
     }
     template <class S, class Why = detail::WhyNotOwnable<D, S>>
     auto set_shape(Id id, const S& shape);
+    /// Calls edit(shape) on the item's own shape if it is an S, and returns whether it is. So a level changes without
+    /// being copied or built anew: `edit_shape<TileMap>(id, [](TileMap& map) { map.set(tile, Tile::empty); })`. Queries
+    /// and the next update see the change, as after `set_shape`.
+    template <Ownable S, class F>
+    bool edit_shape(Id id, F&& edit) {
+        return edit_any_shape(id, [&](AnyShape<D>& shape) { return shape.template edit<S>(edit); });
+    }
     void move(Id id, const Pose<D>& pose) {
         detail::clear_upper_halves();
         move_to(id, pose);
@@ -368,6 +375,7 @@ private:
     template <class SavedItem>
     void restore_item(const SavedItem& saved);
     void set_any_shape(Id id, const AnyShape<D>& shape);
+    bool edit_any_shape(Id id, FunctionRef<bool(AnyShape<D>&)> edit);
     const Item* find(Id id) const;
     const Item* expected(Id id) const;
     Item* expected(Id id);

@@ -1,10 +1,11 @@
 // The cost of changes to a World: a move with its update, queries between a move and the update, compared with queries
-// of an updated world, and snapshots.
+// of an updated world, snapshots, and a level of which a tile changes.
 
 #include "../../scenes/moving_boxes.hpp"
 #include "broad.hpp"
 #include <abut/shape/ball.hpp>
 #include <abut/shape/box.hpp>
+#include <abut/shape/tile_map.hpp>
 #include <abut/world/world.hpp>
 
 #include <memory>
@@ -170,6 +171,46 @@ Job snapshots(bool saves) {
     return job;
 }
 
+/// Changes a tile of a large map on which boxes rest, and updates: in place, and with a map that is built anew.
+Job tile_changes() {
+    constexpr std::uint32_t side_tiles = 512;
+    struct State {
+        State() {
+            level = world.add(*TileMap::build(tiles, side_tiles, 1.0f), {.fixed = true});
+            for (int i = 0; i < 100; ++i)
+                world.add(Box2{{5.0f * static_cast<float>(i) + 2.3f, side_tiles + 0.49f}, {0.5f, 0.5f}});
+        }
+        World2 world;
+        std::vector<Tile> tiles = std::vector<Tile>(side_tiles * side_tiles, Tile::full);
+        Id level;
+        std::uint32_t changed = 0;
+    };
+    const auto side = [](std::string who, bool in_place) -> Side {
+        const auto state = std::make_shared<State>();
+        const auto run = [state, in_place](std::span<double> values) {
+            const std::uint32_t tile = state->changed;
+            if (in_place)
+                state->world.edit_shape<TileMap>(state->level,
+                                                 [&](TileMap& map) { map.set(tile, state->tiles[tile]); });
+            else
+                state->world.set_shape(state->level, *TileMap::build(state->tiles, side_tiles, 1.0f));
+            state->world.update();
+            values[0] = static_cast<double>(state->world.contacts().size());
+        };
+        return {std::move(who), run, [state] {
+                    state->changed = (state->changed + 7) % side_tiles + side_tiles * (side_tiles - 1);
+                    Tile& tile = state->tiles[state->changed];
+                    tile = tile == Tile::full ? Tile::empty : Tile::full;
+                }};
+    };
+    return {.items = 1,
+            .values = 1,
+            .rounds = 8,
+            .frames = 10,
+            .tolerance = 0,
+            .sides = {side("abut", true), side("abut built anew", false)}};
+}
+
 }  // namespace
 
 std::vector<Bench> world_change_benches() {
@@ -180,6 +221,7 @@ std::vector<Bench> world_change_benches() {
         {"broad/world/between/overlap/3d/5000", [] { return queries_between_moves(Query::overlap); }},
         {"broad/world/move/balls/3d/5000", [] { return moves<Sphere>(); }},
         {"broad/world/move/boxes/3d/5000", [] { return moves<Box3>(); }},
+        {"broad/world/tile/2d/512", tile_changes},
         {"broad/world/save/3d/5000", [] { return snapshots(true); }},
         {"broad/world/restore/3d/5000", [] { return snapshots(false); }},
     };

@@ -16,6 +16,8 @@ public:
     Counted& operator=(const Counted&) = delete;
 
     void add_owner() const { owners_.fetch_add(1, std::memory_order_relaxed); }
+    /// Whether it has several owners.
+    bool is_shared() const { return owners_.load(std::memory_order_acquire) > 1; }
     /// Whether it was the last one.
     bool remove_owner() const { return owners_.fetch_sub(1, std::memory_order_acq_rel) == 1; }
 
@@ -39,6 +41,7 @@ public:
         if (object_ != nullptr && object_->remove_owner()) delete object_;
     }
 
+    T& operator*() const { return *object_; }
     T* operator->() const { return object_; }
     /// Whether both own the same object.
     bool operator==(const CountedPointer&) const = default;

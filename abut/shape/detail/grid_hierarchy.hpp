@@ -11,6 +11,8 @@
 #include <cstdint>
 #include <vector>
 
+#include <glm/vec2.hpp>
+
 namespace abut::detail {
 
 /// `Summary` holds what is known of a block. Its default is that of an empty block; `merged(a, b)` combines two.
@@ -35,6 +37,26 @@ public:
             const Level& below = level_of(level - 1);
             for (std::uint32_t y = 0; y < below.rows; ++y)
                 for (std::uint32_t x = 0; x < below.columns; ++x) add(level, x, y, at(level - 1, x, y));
+        }
+    }
+
+    /// Brings the levels up to date where the summaries of some cells have changed: those from `first` to the one before
+    /// `end`, in columns and rows.
+    template <class CellSummary>
+    void update(glm::uvec2 first, glm::uvec2 end, CellSummary&& summary_of) {
+        Level below = cells_;
+        for (std::uint32_t level = 1; level <= levels_.size(); below = level_of(level++)) {
+            first /= side;
+            end = (end - 1u) / side + 1u;
+            for (std::uint32_t y = first.y; y < end.y; ++y)
+                for (std::uint32_t x = first.x; x < end.x; ++x) {
+                    Summary summary;
+                    for (std::uint32_t j = side * y; j < std::min(below.rows, side * (y + 1)); ++j)
+                        for (std::uint32_t i = side * x; i < std::min(below.columns, side * (x + 1)); ++i)
+                            summary = merged(summary, level == 1 ? summary_of(i, j) : at(level - 1, i, j));
+                    const Level& of = level_of(level);
+                    summaries_[of.first + std::size_t{y} * of.columns + x] = summary;
+                }
         }
     }
 
