@@ -6,6 +6,7 @@
 #include <abut/query/contact.hpp>
 #include <abut/query/hit.hpp>
 #include <abut/world/id.hpp>
+#include <abut/world/id_lists.hpp>
 
 #include <cstddef>
 #include <span>

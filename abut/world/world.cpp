@@ -31,14 +31,24 @@ typename World<D>::Item* World<D>::expected(Id id) {
 
 template <int D>
 Id World<D>::add_shape(const AnyShape<D>& shape, const ItemOptions<D>& options) {
+    Item item{.stored = shape};
+    set_shape_data(item);
+    return add_item(item, options);
+}
+
+/// Adds a copy of an item, which has a shape and its data, with these options.
+template <int D>
+Id World<D>::add_item(const Item& with_shape, const ItemOptions<D>& options) {
     std::uint32_t slot = static_cast<std::uint32_t>(items_.size());
     if (free_.empty()) {
         detail::reserve_one_more(items_);
-        items_.push_back(Item{.stored = shape});
+        items_.push_back(with_shape);
     } else {
         slot = free_.back();
         free_.pop_back();
-        items_[slot].stored = shape;
+        items_[slot].stored = with_shape.stored;
+        items_[slot].type = with_shape.type;
+        items_[slot].local_ball = with_shape.local_ball;
     }
     Item& item = items_[slot];
     item.set(options);
@@ -47,7 +57,7 @@ Id World<D>::add_shape(const AnyShape<D>& shape, const ItemOptions<D>& options) 
     ++count_;
     continuous_ += options.continuous ? 1 : 0;
     add_to_boxes(slot);
-    reset_item(slot);
+    begin_anew(slot);
     return id_of(slot);
 }
 
@@ -59,11 +69,16 @@ void World<D>::add_to_boxes(std::uint32_t slot) {
     query_count_.set_limit(query_limit());
 }
 
-/// Begins anew with an item whose shape is new, or that was not enabled.
 template <int D>
 void World<D>::reset_item(std::uint32_t slot) {
+    set_shape_data(items_[slot]);
+    begin_anew(slot);
+}
+
+/// Begins anew with an item whose shape is new, or that was not enabled.
+template <int D>
+void World<D>::begin_anew(std::uint32_t slot) {
     Item& item = items_[slot];
-    set_shape_data(item);
     item.settled = false;
     item.previous = none;
     update_box(slot);

@@ -9,6 +9,7 @@
 #include <abut/math/result.hpp>
 #include <abut/query/raycast.hpp>
 #include <abut/shape/any_shape.hpp>
+#include <abut/world/batch.hpp>
 #include <abut/world/detail/item_boxes.hpp>
 #include <abut/world/detail/pair_index.hpp>
 #include <abut/world/detail/pair_results.hpp>
@@ -51,8 +52,12 @@ namespace abut {
 /// once, and do not allocate unless they return a list. The first query after many changes brings the broad phases up
 /// to date while the others wait. A stale id trips ABUT_ASSERT; in release it is ignored.
 template <int D>
-class World {
+class World : public detail::WorldBatches<D> {
 public:
+    // Many at once, by spans: abut/world/batch.hpp.
+    using Many = detail::WorldBatches<D>;
+    using Many::add, Many::move, Many::remove, Many::raycast, Many::sweep, Many::closest, Many::overlapping;
+
     World() : World(WorldOptions()) {}
     explicit World(const WorldOptions& options)
         : fixed_(options.broad_phase),
@@ -97,8 +102,6 @@ public:
     }
     template <class P, class Why = detail::WhyNoPose<D, P>>
     auto move(Id id, const P& position);
-    /// Moves many items; as many poses as ids.
-    void move(std::span<const Id> ids, std::span<const Pose<D>> poses);
     void set_filter(Id id, std::uint64_t layers, std::uint64_t mask);
     void remove(Id id);
 
@@ -246,16 +249,6 @@ public:
         return all_hits(ray, filter);
     }
 
-    // Many questions in one call. Each answer is that of the question alone, and has a place in the second span; the
-    // threads of an executor share the questions.
-    using Hits = std::span<std::optional<WorldHit<D>>>;
-    void raycast(std::span<const Ray<D>> rays, Hits hits, const Filter& filter = {}) const;
-    void raycast(std::span<const Ray<D>> rays, Hits hits, Executor& executor, const Filter& filter = {}) const;
-    using ClosestItems = std::span<std::optional<WorldClosest<D>>>;
-    void closest(std::span<const Vec<D>> points, ClosestItems items, const Filter& filter = {}) const;
-    void closest(std::span<const Vec<D>> points, ClosestItems items, Executor& executor,
-                 const Filter& filter = {}) const;
-
     /// The first hit of a linear motion, as abut::sweep defines it; among equally early hits, the one with the lowest
     /// id. An item that the shape touches at the start is hit only if the motion goes further in.
     template <detail::ShapeIn<D> S>
@@ -343,6 +336,7 @@ public:
     }
 
 private:
+    friend Many;
     static constexpr std::uint32_t none = 0xFFFFFFFF;
     /// Fixed items change seldom, and each moving item queries them once in an update.
     static constexpr double queries_per_fixed_item = 1;
@@ -363,8 +357,10 @@ private:
     std::vector<WorldHit<D>> all_hits(const Ray<D>& ray, const Filter& filter) const;
     std::vector<Id> all_containing(const Vec<D>& point, const Filter& filter) const;
 
+    Id add_item(const Item& with_shape, const ItemOptions<D>& options);
     void add_to_boxes(std::uint32_t slot);
     void reset_item(std::uint32_t slot);
+    void begin_anew(std::uint32_t slot);
     void set_shape_data(Item& item);
     void free_slot(std::uint32_t slot);
     struct Snapshot;

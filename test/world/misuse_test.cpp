@@ -7,6 +7,7 @@
 #include <abut/math/assert.hpp>
 #include <abut/world/world.hpp>
 
+#include <array>
 #include <functional>
 #include <limits>
 
@@ -54,6 +55,8 @@ void expect_caught(World2& world, Id id) {
     EXPECT_EQ(trips_of([&] { world.set_shape(id, Circle{{5, 5}, 3}); }), once);
     EXPECT_EQ(trips_of([&] { world.set_filter(id, 0, 0); }), once);
     EXPECT_EQ(trips_of([&] { world.remove(id); }), once);
+    EXPECT_EQ(trips_of([&] { world.remove(std::array{id, id}); }), 2 * once);
+    EXPECT_EQ(trips_of([&] { world.move(std::array{id}, std::array{Pose2{{5, 5}}}); }), once);
     EXPECT_EQ(trips_of([&] { EXPECT_EQ(world.user(id), 0u); }), once);
     EXPECT_EQ(trips_of([&] { EXPECT_EQ(world.pose(id), Pose2{}); }), once);
     EXPECT_EQ(trips_of([&] { EXPECT_TRUE(std::holds_alternative<detail::Convex<2>>(world.shape(id))); }), once);

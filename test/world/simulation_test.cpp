@@ -6,6 +6,7 @@
 #include "../oracle/pair.hpp"
 #include "support/bits.hpp"
 
+#include <array>
 #include <iostream>
 
 #include <gtest/gtest.h>
@@ -44,6 +45,12 @@ void check_rays(Simulation<D>& game, Seen& seen) {
     const auto first = expected.empty() ? std::nullopt : std::optional(expected.front());
     ASSERT_EQ(Bits(game.world.raycast(ray, filter)), Bits(first));
     ASSERT_EQ(game.world.raycast_any(ray, filter), !expected.empty());
+    const std::array rays{ray, Ray<D>::between(to, from)};
+    std::array<std::optional<WorldHit<D>>, 2> hits;
+    game.world.raycast(rays, hits, filter);
+    const std::vector<WorldHit<D>> back = game.reference.raycast_all(rays[1], filter);
+    ASSERT_EQ(Bits(hits[0]), Bits(first));
+    ASSERT_EQ(Bits(hits[1]), Bits(back.empty() ? std::nullopt : std::optional(back.front())));
     seen.misses += expected.empty() ? 1 : 0;
     seen.hits += expected.empty() ? 0 : 1;
     seen.several_hits += expected.size() > 1 ? 1 : 0;
@@ -68,6 +75,22 @@ void check_early_stop(const Simulation<D>& game, const S& shape, const Filter& f
     seen.stopped += visited.size() < all.size() ? 1 : 0;
 }
 
+/// Checks the questions about one shape at several poses.
+template <int D, class S>
+void check_many(const Simulation<D>& game, const S& shape, std::span<const Pose<D>> poses, const Filter& filter) {
+    std::vector<std::optional<WorldClosest<D>>> nearest(poses.size());
+    IdLists overlapping;
+    game.world.closest(shape, poses, nearest, filter);
+    game.world.overlapping(shape, poses, overlapping, filter);
+    ASSERT_EQ(overlapping.size(), poses.size());
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        const auto placed = at(shape, poses[i]);
+        const View<D> query = view(placed);
+        ASSERT_EQ(Bits(nearest[i]), Bits(game.reference.closest(query, filter)));
+        ASSERT_EQ(Bits(overlapping[i]), Bits(game.reference.overlapping(query, filter)));
+    }
+}
+
 template <int D>
 void check_shapes(Simulation<D>& game, Seen& seen) {
     oracle::Random& random = game.random();
@@ -89,6 +112,9 @@ void check_shapes(Simulation<D>& game, Seen& seen) {
         ASSERT_EQ(game.world.overlapping(placed, filter), all);
         seen.overlapping += all.empty() ? 0 : 1;
         check_early_stop(game, placed, filter, all, 1 + random.below(3), seen);
+
+        const std::array poses{pose, Pose<D>{0.5f * pose.position, pose.rotation}};
+        check_many<D>(game, shape, poses, filter);
     });
 }
 

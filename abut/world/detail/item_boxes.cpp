@@ -20,6 +20,18 @@ ItemBoxes<D>::ItemBoxes(std::optional<BroadPhaseKind> kind)
     : phase_(kind ? ChosenBroadPhase<D>(*kind) : ChosenBroadPhase<D>()) {}
 
 template <int D>
+void ItemBoxes<D>::expect(std::size_t count, double queries) {
+    const std::size_t places = boxes_.size() + count - std::min(count, free_.size());
+    if ((places - boxes_.size()) * refit_divisor <= boxes_.size()) return;
+    boxes_.reserve(places);
+    slots_.reserve(places);
+    is_stale_.reserve(places);
+    stale_.reserve(stale_.size() + count);
+    expected_ = planned_ = places;
+    phase_.set_history({.queries = queries});
+}
+
+template <int D>
 std::uint32_t ItemBoxes<D>::add(std::uint32_t slot, double queries) {
     if (free_.empty()) {
         reserve_one_more(boxes_);
@@ -28,6 +40,7 @@ std::uint32_t ItemBoxes<D>::add(std::uint32_t slot, double queries) {
         boxes_.push_back(Aabb<D>::empty());
         slots_.push_back(slot);
         is_stale_.push_back(false);
+        if (boxes_.size() <= expected_) return static_cast<std::uint32_t>(boxes_.size() - 1);
         // Another kind of broad phase may suit twice as many boxes.
         if (boxes_.size() > 2 * planned_) {
             planned_ = boxes_.size();
@@ -92,7 +105,7 @@ void ItemBoxes<D>::refresh(double queries, Executor* executor) {
 template <int D>
 void ItemBoxes<D>::prepare() const {
     pending_work_.run([this] {
-        // Only a structure that cannot grow has fewer boxes; a world never chooses one by itself.
+        // A structure that cannot grow has fewer boxes, and any one after many items were added at once.
         if (phase_.size() != boxes_.size()) phase_.build(boxes_);
         bool is_set = stale_.size() * refit_divisor <= boxes_.size() + max_stale * refit_divisor;
         for (std::size_t i = 0; i < stale_.size() && is_set; ++i) is_set = phase_.set(stale_[i], boxes_[stale_[i]]);

@@ -24,6 +24,9 @@ public:
     /// With a fixed kind of broad phase; by default it is chosen by the boxes and their history.
     explicit ItemBoxes(std::optional<BroadPhaseKind> kind = {});
 
+    /// Prepares for `count` calls of `add`. If these are many, the broad phase doesn't grow with each of them: the
+    /// first query or refresh after them builds it anew.
+    void expect(std::size_t count, double queries);
     /// Returns a new place for the item of this slot, with an empty box. `queries` is their number for each item, see
     /// BroadPhaseHistory.
     std::uint32_t add(std::uint32_t slot, double queries);
@@ -76,6 +79,7 @@ private:
     std::vector<std::uint32_t> free_;
     std::size_t changed_ = 0;                  // changes since the last refresh, with repetition
     std::size_t refreshed_ = 0, planned_ = 0;  // numbers of places at the last refresh and choice of kind
+    std::size_t expected_ = 0;                 // the broad phase doesn't grow up to this number of places
     // `prepare` alone changes these in const calls.
     mutable std::vector<std::uint32_t> stale_;  // places whose boxes differ from those in the broad phase
     mutable std::vector<char> is_stale_;        // by place

@@ -61,6 +61,10 @@ void call_public_functions() {
     expect_cleared_after("World::add", [&] { id = world.add(box); });
     expect_cleared_after("World::set_shape", [&] { world.set_shape(id, box); });
     expect_cleared_after("World::move", [&] { world.move(id, Pose3{{1, 0, 0}}); });
+    const std::array options{ItemOptions<3>{}};
+    std::array<Id, 1> ids;
+    expect_cleared_after("World::add of many", [&] { world.add(box, options, ids); });
+    expect_cleared_after("World::remove of many", [&] { world.remove(ids); });
     expect_cleared_after("World::refresh", [&] { world.refresh(); });
     expect_cleared_after("World::update", [&] { world.update(); });
     expect_cleared_after("World::raycast", [&] { sink = world.raycast(ray).has_value(); });
