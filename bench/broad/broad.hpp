@@ -38,7 +38,7 @@ std::vector<Bench> world_benches();
 std::vector<Bench> world_frame_benches();
 /// The cost of the filter of internal edges.
 std::vector<Bench> world_edge_benches();
-/// Many rays into a World in one call.
+/// Many changes of a World and questions to it in one call.
 std::vector<Bench> world_batch_benches();
 /// The cost of changes to a World, and of queries after them.
 std::vector<Bench> world_change_benches();

@@ -85,7 +85,7 @@ TYPED_TEST(Batch, MovesAreThoseOfEachItem) {
     EXPECT_EQ(together.save(), one_by_one.save());
 }
 
-/// Asks all questions about a shape at once, on one thread and on several, and each alone.
+/// Checks all questions about a shape at once, on one thread and on several, against each alone.
 template <int D, class S>
 void check_shape(const World<D>& world, const S& shape, const std::vector<Pose<D>>& poses,
                  const std::vector<Motion<D>>& motions, const Filter& filter, Executor& executor) {
