@@ -9,3 +9,4 @@
 #include <abut/draw/trace.hpp>
 #include <abut/draw/voronoi.hpp>
 #include <abut/draw/walk_mesh.hpp>
+#include <abut/draw/world.hpp>

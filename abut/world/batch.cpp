@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <hwy/cache_control.h>
+
 namespace abut::detail {
 namespace {
 
@@ -111,7 +113,7 @@ void WorldBatches<D>::change_all(std::span<const Id> ids, const Change& change) 
     for (std::size_t i = 0; i < ids.size(); ++i) {
         if (i + ids_ahead < ids.size()) {
             const std::size_t slot = std::size_t{ids[i + ids_ahead].index} - 1;
-            if (slot < w.items_.size()) __builtin_prefetch(&w.items_[slot], 1);
+            if (slot < w.items_.size()) hwy::Prefetch(&w.items_[slot]);
         }
         change(i);
     }
