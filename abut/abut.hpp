@@ -67,6 +67,7 @@
 #include <abut/walk/file.hpp>
 #include <abut/walk/survey.hpp>
 #include <abut/walk/walk_mesh.hpp>
+#include <abut/world/history.hpp>
 #include <abut/world/options.hpp>
 #include <abut/world/results.hpp>
 #include <abut/world/world.hpp>

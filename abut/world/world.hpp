@@ -45,6 +45,9 @@ struct SurfaceContact;
 
 namespace abut {
 
+template <int D>
+class History;
+
 /// A collision world. All lists are sorted by id, and no answer depends on the order in which items were added except
 /// through the ids.
 ///
@@ -337,6 +340,8 @@ public:
 
 private:
     friend Many;
+    friend History<D>;
+
     static constexpr std::uint32_t none = 0xFFFFFFFF;
     /// Fixed items change seldom, and each moving item queries them once in an update.
     static constexpr double queries_per_fixed_item = 1;

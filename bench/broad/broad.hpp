@@ -40,6 +40,8 @@ std::vector<Bench> world_frame_benches();
 std::vector<Bench> world_edge_benches();
 /// Many changes of a World and questions to it in one call.
 std::vector<Bench> world_batch_benches();
+/// The cost of a World's past.
+std::vector<Bench> world_past_benches();
 /// The cost of changes to a World, and of queries after them.
 std::vector<Bench> world_change_benches();
 /// The cost of changes to a World with a query after each.

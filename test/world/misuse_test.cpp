@@ -5,7 +5,7 @@
 #include "support/circles.hpp"
 #include "support/random_shapes.hpp"
 #include <abut/math/assert.hpp>
-#include <abut/world/world.hpp>
+#include <abut/world/history.hpp>
 
 #include <array>
 #include <functional>
@@ -179,6 +179,37 @@ TEST(Misuse, NonFiniteItemsTouchNothing) {
         world.move(other, {});
         EXPECT_EQ(world.update().began.size(), 1u);
     }
+}
+
+TEST(Misuse, ThePastOfNonFiniteItemsTripsNothing) {
+    World2 world;
+    History2 past(world, 4);
+    const Id id = world.add(unit);
+    for (const Vec2& position : {nowhere, Vec2(0, infinity), Vec2(1, 0), Vec2(infinity, 0)}) {
+        EXPECT_EQ(trips_of([&] { world.move(id, {position}); }), detail::is_finite(position) ? 0 : once);
+        past.record();
+    }
+    for (std::uint64_t tick = 0; tick < 4; ++tick) {
+        EXPECT_EQ(past.at(tick).raycast({{-10, 0}, {1, 0}, 100}).has_value(), tick == 2);
+        EXPECT_FALSE(tick != 2 && past.at(tick, 0.5f).raycast({{-10, 0}, {1, 0}, 100}));
+    }
+}
+
+TEST(Misuse, ATickThatIsNotHeldIsTheNearestOne) {
+    World2 world;
+    EXPECT_EQ(trips_of([&] { EXPECT_EQ(History2(world, 0).at(0).size(), 0u); }), 2 * once);
+    History2 past(world, 2);
+    EXPECT_EQ(trips_of([&] { EXPECT_EQ(past.at(0).size(), 0u); }), once);
+    const Id id = world.add(unit);
+    for (int i = 0; i < 4; ++i) {
+        world.move(id, place(static_cast<float>(i)));
+        past.record();
+    }
+    EXPECT_EQ(trips_of([&] { EXPECT_EQ(past.at(1).pose(id), place(2)); }), once);
+    EXPECT_EQ(trips_of([&] { EXPECT_EQ(past.at(4).pose(id), place(3)); }), once);
+    EXPECT_EQ(trips_of([&] { EXPECT_EQ(past.at(2, 1.5f).pose(id), place(3)); }), once);
+    EXPECT_EQ(trips_of([&] { EXPECT_EQ(past.at(2, -1).pose(id), place(2)); }), once);
+    EXPECT_EQ(trips_of([&] { EXPECT_EQ(past.at(2, nan).pose(id), place(2)); }), once);
 }
 
 }  // namespace

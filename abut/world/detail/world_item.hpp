@@ -42,6 +42,12 @@ struct WorldItem {
     }
     /// With the margin of queries; empty if the item is not enabled.
     Aabb<D> bounds() const { return enabled ? stored.bounds_for_queries(pose) : Aabb<D>::empty(); }
+    /// Whether the two are one item that differs in nothing but the pose.
+    bool is_same_but_for_pose(const WorldItem& other) const {
+        return generation == other.generation && stored.is_shared_with(other.stored) && user == other.user &&
+               layers == other.layers && mask == other.mask && group == other.group && fixed == other.fixed &&
+               sensor == other.sensor && continuous == other.continuous && enabled == other.enabled;
+    }
     /// Whether the two pair by their types, groups and layers.
     bool may_pair(const WorldItem& other) const {
         if (type == ShapeType::half_space && other.type == ShapeType::half_space) return false;
