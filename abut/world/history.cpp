@@ -25,14 +25,9 @@ History<D>::History(const World<D>& world, std::size_t ticks, const HistoryOptio
 template <int D>
 std::uint64_t History<D>::record() {
     detail::clear_upper_halves();
-    const std::size_t before = past_.items_.size(), slots = std::max(before, world_->items_.size());
-    past_.items_.resize(slots, Item{.stored = AnyShape<D>(Ball<D>{})});
-    track_of_.resize(slots, none);
-    past_.free_.reserve(slots);
-    for (std::size_t slot = slots; slot-- > before;) past_.free_.push_back(static_cast<std::uint32_t>(slot));
-
+    grow();
     const std::uint64_t tick = recorded_++;
-    for (std::uint32_t slot = 0; slot < slots; ++slot) record_slot(slot, tick);
+    for (std::uint32_t slot = 0; slot < past_.items_.size(); ++slot) record_slot(slot, tick);
 
     // Single changes make the trees worse. After so many, a refit costs little beside them.
     constexpr std::size_t refresh_divisor = 8;
@@ -41,6 +36,17 @@ std::uint64_t History<D>::record() {
         changed_boxes_ = 0;
     }
     return tick;
+}
+
+/// Gives past_ the slots that the world has; the lowest of the new ones is the first to be found free.
+template <int D>
+void History<D>::grow() {
+    const std::size_t before = past_.items_.size(), slots = world_->items_.size();
+    if (slots <= before) return;
+    past_.items_.resize(slots, Item{.stored = AnyShape<D>(Ball<D>{})});
+    past_.free_.reserve(slots);
+    for (std::size_t slot = slots; slot-- > before;) past_.free_.push_back(static_cast<std::uint32_t>(slot));
+    track_of_.resize(slots, none);
 }
 
 template <int D>
@@ -90,7 +96,7 @@ void History<D>::begin_track(std::uint32_t slot, std::uint64_t tick) {
     Entry first;
     if (const Item& item = past_.items_[slot]; item.in_use) first = {add_version(item), item.pose};
     for (std::size_t i = 0; i < ticks_; ++i) set_entry(entry(track, i), first);
-    tracks_[track] = {slot, first.version, tick, tick};
+    tracks_[track] = {slot, tick, tick};
     track_of_[slot] = track;
 }
 
@@ -132,17 +138,21 @@ const World<D>& History<D>::at(std::uint64_t tick, float fraction) {
     tick = std::clamp(tick, first_tick(), last_tick());
     const std::uint64_t next_tick = std::min(tick + 1, last_tick());
     for (std::uint32_t i = 0; i < tracks_.size(); ++i) {
-        Track& track = tracks_[i];
-        if (track.slot == none) continue;
+        const std::uint32_t slot = tracks_[i].slot;
+        if (slot == none) continue;
         const Entry &there = entry(i, tick), &next = entry(i, next_tick);
-        if (std::exchange(track.shown, there.version) != there.version)
-            show(track.slot, there.version != none ? &versions_[there.version].item : nullptr);
-        if (there.version == none) continue;
+        const Item& shown = past_.items_[slot];
+        if (there.version == none) {
+            if (shown.in_use) show(slot, nullptr);
+            continue;
+        }
+        const Item& item = versions_[there.version].item;
+        if (!shown.in_use || !shown.is_same_but_for_pose(item)) show(slot, &item);
         Pose<D> pose = there.pose;
         // NaN is not above 0.
         if (fraction > 0 && is_same_item(there, next) && next.pose != there.pose)
             pose = fraction < 1 ? pose_at(Motion<D>::between(there.pose, next.pose), fraction) : next.pose;
-        move(track.slot, pose);
+        move(slot, pose);
     }
     return past_;
 }

@@ -73,13 +73,13 @@ private:
     /// The entries of a slot whose item moved or changed.
     struct Track {
         std::uint32_t slot = none;        ///< none: the track is free
-        std::uint32_t shown = none;       ///< the version in past_
         std::uint64_t last_change = 0;    ///< the last tick whose entry differs from the one before
         std::uint64_t last_recorded = 0;  ///< the last tick with an item that is to be recorded
     };
 
     bool is_recorded(const Item* item) const { return item != nullptr && (item->layers & options_.layers) != 0; }
     Entry& entry(std::uint32_t track, std::uint64_t tick) { return entries_[track * ticks_ + tick % ticks_]; }
+    void grow();
     void record_slot(std::uint32_t slot, std::uint64_t tick);
     void begin_track(std::uint32_t slot, std::uint64_t tick);
     void end_track(std::uint32_t track);

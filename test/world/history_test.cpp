@@ -122,13 +122,15 @@ void expect_past_as_copied(std::uint64_t seed) {
         ASSERT_EQ(played.past.size(), played.copies.size());
         EXPECT_TRUE(played.past.contains(first) && played.past.contains(last));
         EXPECT_FALSE(played.past.contains(last + 1) || (first > 0 && played.past.contains(first - 1)));
+        // Regression: a stretch without queries outlasts what the past last showed.
+        if (i / 15 % 2 == 1) continue;
         oracle::Random& random = played.game.random();
         for (int k = 0; k < 2; ++k) {
             const std::uint64_t tick = last - random.below(static_cast<std::uint32_t>(played.copies.size()));
             played.expect_same(tick, std::array<float, 3>{0, 1, random.uniform_float(0, 1)}[random.below(3)]);
         }
     }
-    EXPECT_GT(played.game.reused, 10);
+    EXPECT_GT(played.game.reused, 3);
 }
 
 TEST(History, IsThatOfCopies) {
@@ -187,11 +189,12 @@ void expect_copies_live_on(std::uint64_t seed) {
 
         const std::vector<std::byte> bytes = then.save();
         const Id added = then.add(Ball<D>{});
-        EXPECT_FALSE(played.game.world.contains(added) && then.size() == played.game.world.size());
+        EXPECT_EQ(then.size(), ids.size());
+        EXPECT_TRUE(then.contains(added));
         EXPECT_FALSE(then.restore(bytes));
         EXPECT_EQ(then.save(), bytes);
     }
-    EXPECT_GT(contacts, 300u);
+    EXPECT_GT(contacts, 100u);
 }
 
 TEST(History, ItsCopiesLiveOn) {
@@ -304,7 +307,8 @@ TEST(History, AllocatesNothingOnceWarm) {
             for (int shot = 0; shot < 3; ++shot) {
                 const std::uint64_t tick = last - random.below(static_cast<std::uint32_t>(past.size()));
                 const World3& then = past.at(tick, random.uniform_float(0, 1));
-                hits += then.raycast(Ray3::between(Vec3(-10, 0, 0), to_float(random.in_cube<3>()))) ? 1 : 0;
+                const Vec3 from = to_float(random.in_cube<3>() * 20.0), to = to_float(random.in_cube<3>() * 5.0);
+                hits += then.raycast(Ray3::between(from, to)) ? 1 : 0;
             }
             result += allocations() - before;
             // An item that comes and goes.
@@ -315,8 +319,8 @@ TEST(History, AllocatesNothingOnceWarm) {
     };
     EXPECT_GT(play(400), 0u);
     EXPECT_EQ(play(400), 0u);
-    EXPECT_GT(hits, 500);
-    EXPECT_LT(hits, 2300);
+    EXPECT_GT(hits, 300);
+    EXPECT_LT(hits, 2100);
 }
 
 TEST(History, ReleasesTheShapesOfTicksThatItForgets) {
