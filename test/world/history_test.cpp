@@ -323,6 +323,20 @@ TEST(History, AllocatesNothingOnceWarm) {
     EXPECT_LT(hits, 2100);
 }
 
+TEST(History, TakesMemoryForTicksOnlyWhereItemsMove) {
+    constexpr std::size_t items = 1000, ticks = 1000;
+    World2 world;
+    Id mover;
+    for (std::size_t i = 0; i < items; ++i) mover = world.add(unit, {.pose = place(3 * static_cast<float>(i))});
+    const std::size_t before = allocated_bytes();
+    History2 past(world, ticks);
+    for (int i = 0; i < 10; ++i) {
+        past.record();
+        world.move(mover, place(static_cast<float>(i)));
+    }
+    EXPECT_LT(allocated_bytes() - before, 1'000'000u);  // 20 bytes a tick for each item would be 20 megabytes
+}
+
 TEST(History, ReleasesTheShapesOfTicksThatItForgets) {
     constexpr int steps = 100'000;
     constexpr std::size_t size = steps * sizeof(Aabb2);
