@@ -52,6 +52,7 @@
 #include <abut/shape/chain.hpp>
 #include <abut/shape/compound.hpp>
 #include <abut/shape/cylinder.hpp>
+#include <abut/shape/file.hpp>
 #include <abut/shape/half_space.hpp>
 #include <abut/shape/height_field.hpp>
 #include <abut/shape/mesh.hpp>

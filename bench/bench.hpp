@@ -62,6 +62,8 @@ std::vector<Bench> chain_sweep_benches();
 std::vector<Bench> removal_benches();
 /// Shapes against the ground of a level.
 std::vector<Bench> level_benches();
+/// Loading of levels from bytes.
+std::vector<Bench> level_load_benches();
 /// Characters that walk over levels.
 std::vector<Bench> levels_mover_benches();
 /// Convex hulls in 3D.

@@ -43,6 +43,7 @@ std::vector<Bench> all_benches() {
     std::ranges::move(chain_sweep_benches(), std::back_inserter(result));
     std::ranges::move(removal_benches(), std::back_inserter(result));
     std::ranges::move(level_benches(), std::back_inserter(result));
+    std::ranges::move(level_load_benches(), std::back_inserter(result));
     std::ranges::move(levels_mover_benches(), std::back_inserter(result));
     std::ranges::move(convex_hull_benches(), std::back_inserter(result));
     std::ranges::move(convex_solid_benches(), std::back_inserter(result));

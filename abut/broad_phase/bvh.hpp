@@ -13,6 +13,12 @@
 #include <span>
 #include <vector>
 
+namespace abut::detail {
+
+struct BvhAccess;
+
+}  // namespace abut::detail
+
 namespace abut {
 
 /// A BroadPhase; concept.hpp documents its functions. A node has eight children and a leaf has up to eight items, whose
@@ -49,6 +55,7 @@ public:
 
 private:
     friend detail::BroadPhaseInterface<Bvh<D>, D>;
+    friend struct detail::BvhAccess;
     void visit_pairs(detail::PairsCall visit, Executor* executor) const;
     void visit_pairs(const Bvh& other, detail::PairsCall visit) const;
     void visit_boxes(detail::BoxCall<D> visit) const;

@@ -69,7 +69,7 @@ public:
     PlacedSurface(const PlacedSurface&) = delete;
     PlacedSurface& operator=(const PlacedSurface&) = delete;
 
-    Surface outline() const { return {corners_, facets_.edges.empty() ? nullptr : &facets_, mirrored_}; }
+    SummandSurface outline() const { return {corners_, facets_.edges.empty() ? nullptr : &facets_, mirrored_}; }
     const DVec<3>& corner(std::uint32_t i) const { return corners_[i]; }
     const DVec<3>& origin() const { return origin_; }
 

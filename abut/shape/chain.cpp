@@ -1,63 +1,41 @@
-#include <abut/broad_phase/bvh.hpp>
 #include <abut/math/assert.hpp>
 #include <abut/math/predicates.hpp>
 #include <abut/math/simd/library_entry.hpp>
 #include <abut/shape/chain.hpp>
+#include <abut/shape/detail/chain_data.hpp>
 
 #include <vector>
 
 namespace abut {
 
-struct Chain::Data {
-    std::vector<Vec2> points;
-    bool closed = false;
-    bool one_sided = false;
-    Bvh<2> tree;  ///< of the segments
-
-    std::uint32_t size() const { return static_cast<std::uint32_t>(closed ? points.size() : points.size() - 1); }
-    Segment2 segment(std::uint32_t index) const {
-        return {points[index], points[index + 1 == points.size() ? 0 : index + 1]};
-    }
-    detail::Convex<2> part(std::uint32_t index) const {
-        detail::Convex<2> result = convex(segment(index));
-        result.one_sided = one_sided;
-        return result;
-    }
-};
-
-namespace {
-
-Aabb2 box_of(const Segment2& s) {
-    return merged(Aabb2{s.a, s.a}, Aabb2{s.b, s.b});
-}
-
-}  // namespace
-
-Result<Chain> Chain::build(std::span<const Vec2> points, bool closed, const ChainOptions& options) {
-    detail::enter_library();
+std::optional<Problem> detail::problem_of_chain(std::span<const Vec2> points, bool closed) {
     const std::size_t min_count = closed ? 3 : 2;
     if (points.size() < min_count)
         return Problem{ProblemCode::empty_input,
-                       std::string(closed ? "a closed" : "an open") + " chain needs at min_count " +
+                       std::string(closed ? "a closed" : "an open") + " chain needs at least " +
                            std::to_string(min_count) + " points, and there are " + std::to_string(points.size()),
                        points.size()};
     for (std::size_t i = 0; i < points.size(); ++i)
         if (!detail::is_finite(points[i]))
             return Problem{ProblemCode::not_finite,
                            "point " + std::to_string(i) + " has a coordinate that is not finite", i};
+    for (std::size_t i = 0; i + (closed ? 0 : 1) < points.size(); ++i)
+        if (points[i] == points[i + 1 == points.size() ? 0 : i + 1])
+            return Problem{ProblemCode::degenerate,
+                           "segment " + std::to_string(i) + " has no length: its two points are at the same place", i};
+    return std::nullopt;
+}
+
+Result<Chain> Chain::build(std::span<const Vec2> points, bool closed, const ChainOptions& options) {
+    detail::enter_library();
+    if (std::optional<Problem> problem = detail::problem_of_chain(points, closed)) return *std::move(problem);
     auto data = std::make_shared<Data>();
     data->points.assign(points.begin(), points.end());
     data->closed = closed;
     data->one_sided = options.one_sided;
     std::vector<Aabb2> boxes;
     boxes.reserve(data->size());
-    for (std::uint32_t i = 0; i < data->size(); ++i) {
-        const Segment2 segment = data->segment(i);
-        if (segment.a == segment.b)
-            return Problem{ProblemCode::degenerate,
-                           "segment " + std::to_string(i) + " has no length: its two points are at the same place", i};
-        boxes.push_back(box_of(segment));
-    }
+    for (std::uint32_t i = 0; i < data->size(); ++i) boxes.push_back(data->box(i));
     data->tree.build(boxes);
     return Chain(std::move(data));
 }

@@ -6,9 +6,11 @@
 #include <abut/shape/segment.hpp>
 #include <abut/shape/view/view.hpp>
 
+#include <cstddef>
 #include <initializer_list>
 #include <memory>
 #include <span>
+#include <vector>
 
 namespace abut {
 
@@ -50,6 +52,8 @@ private:
     friend void each_part_along(const Chain& chain, const MovingBox<2>& box, detail::PartReachVisitor<2> visit);
     friend void each_part_near(const Chain& chain, const Aabb2& box, detail::PartReachVisitor<2> visit);
     friend bool solid_contains(const Chain& chain, const Vec2& point);
+    friend std::vector<std::byte> save(const Chain& chain);
+    friend Result<Chain> load_chain(std::span<const std::byte> bytes);
 
     std::shared_ptr<const Data> data_;
 };
@@ -74,5 +78,12 @@ bool solid_contains(const Chain& chain, const Vec2& point);
 inline std::uint32_t part_neighbour(const Chain& chain, std::uint32_t part, std::uint32_t side) {
     return chain.neighbour(part, side);
 }
+
+namespace detail {
+
+template <>
+inline constexpr CompositeKind composite_kind<Chain> = CompositeKind::chain;
+
+}  // namespace detail
 
 }  // namespace abut

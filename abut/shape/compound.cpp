@@ -1,21 +1,15 @@
-#include <abut/broad_phase/bvh.hpp>
 #include <abut/math/assert.hpp>
 #include <abut/math/simd/library_entry.hpp>
 #include <abut/shape/compound.hpp>
+#include <abut/shape/detail/compound_data.hpp>
 #include <abut/shape/view/part.hpp>
 
+#include <optional>
 #include <vector>
 
 namespace abut {
 
 using namespace detail;
-
-template <int D>
-struct Compound<D>::Data {
-    std::vector<AnyShape<D>> children;
-    std::vector<View<D>> views;
-    Bvh<D> tree;
-};
 
 namespace {
 
@@ -36,13 +30,11 @@ MovingBox<D> with_unit_direction(const MovingBox<D>& box, double direction_lengt
 }  // namespace
 
 template <int D>
-Result<Compound<D>> Compound<D>::build(std::span<const AnyShape<D>> children) {
-    detail::enter_library();
-    if (children.empty()) return Problem{ProblemCode::empty_input, "a compound needs at least one child", 0};
-    auto data = std::make_shared<Data>();
-    std::vector<Aabb<D>> boxes;
-    boxes.reserve(children.size());
-    data->views.reserve(children.size());
+std::optional<Problem> Compound<D>::Data::set(std::span<const AnyShape<D>> shapes, std::vector<Aabb<D>>& boxes) {
+    if (shapes.empty()) return Problem{ProblemCode::empty_input, "a compound needs at least one child", 0};
+    children.assign(shapes.begin(), shapes.end());
+    boxes.reserve(shapes.size());
+    views.reserve(shapes.size());
     for (std::size_t i = 0; i < children.size(); ++i) {
         const View<D> child = children[i].view();
         if (std::holds_alternative<HalfSpaceView<D>>(child))
@@ -54,9 +46,17 @@ Result<Compound<D>> Compound<D>::build(std::span<const AnyShape<D>> children) {
         if (!is_finite(child) || (has_parts && !(is_finite(box.min) && is_finite(box.max))))
             return problem_of<D>(i, ProblemCode::not_finite, " has a coordinate that is not finite");
         boxes.push_back(box);
-        data->views.push_back(child);
+        views.push_back(child);
     }
-    data->children.assign(children.begin(), children.end());
+    return std::nullopt;
+}
+
+template <int D>
+Result<Compound<D>> Compound<D>::build(std::span<const AnyShape<D>> children) {
+    detail::enter_library();
+    auto data = std::make_shared<Data>();
+    std::vector<Aabb<D>> boxes;
+    if (std::optional<Problem> problem = data->set(children, boxes)) return *std::move(problem);
     data->tree.build(boxes);
     return Compound(std::move(data));
 }

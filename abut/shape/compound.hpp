@@ -5,9 +5,25 @@
 #include <abut/math/result.hpp>
 #include <abut/shape/any_shape.hpp>
 
+#include <cstddef>
 #include <initializer_list>
 #include <memory>
 #include <span>
+#include <vector>
+
+namespace abut {
+
+template <int D>
+class Compound;
+
+}  // namespace abut
+
+namespace abut::detail {
+
+template <int D>
+Result<Compound<D>> load_nested(std::span<const std::byte> bytes, int nesting);
+
+}  // namespace abut::detail
 
 namespace abut {
 
@@ -35,6 +51,11 @@ public:
     bool solid_contains(const Vec<D>& point) const;
 
 private:
+    template <int E>
+    friend Result<std::vector<std::byte>> save(const Compound<E>& compound);
+    template <int E>
+    friend Result<Compound<E>> detail::load_nested(std::span<const std::byte> bytes, int nesting);
+
     struct Data;
     explicit Compound(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
 
@@ -80,5 +101,12 @@ template <int D>
 bool solid_contains(const Compound<D>& compound, const Vec<D>& point) {
     return compound.solid_contains(point);
 }
+
+namespace detail {
+
+template <int D>
+inline constexpr CompositeKind composite_kind<Compound<D>> = CompositeKind::compound;
+
+}  // namespace detail
 
 }  // namespace abut

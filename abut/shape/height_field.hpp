@@ -90,4 +90,11 @@ inline std::uint32_t part_neighbour(const HeightField& field, std::uint32_t part
     return field.neighbour(part, side);
 }
 
+namespace detail {
+
+template <>
+inline constexpr CompositeKind composite_kind<HeightField> = CompositeKind::height_field;
+
+}  // namespace detail
+
 }  // namespace abut

@@ -6,6 +6,7 @@
 #include <abut/shape/triangle.hpp>
 #include <abut/shape/view/view.hpp>
 
+#include <cstddef>
 #include <memory>
 #include <span>
 
@@ -51,6 +52,7 @@ private:
     /// All data of the mesh, for queries of solids.
     friend const detail::MeshSurface& mesh_surface(const Mesh& mesh);
     friend bool solid_contains(const Mesh& mesh, const Vec3& point);
+    friend Result<Mesh> load_mesh(std::span<const std::byte> bytes);
 
     std::shared_ptr<const detail::MeshSurface> data_;
 };
@@ -77,5 +79,12 @@ bool solid_contains(const Mesh& mesh, const Vec3& point);
 inline std::uint32_t part_neighbour(const Mesh& mesh, std::uint32_t part, std::uint32_t side) {
     return mesh.neighbour(part, side);
 }
+
+namespace detail {
+
+template <>
+inline constexpr CompositeKind composite_kind<Mesh> = CompositeKind::mesh;
+
+}  // namespace detail
 
 }  // namespace abut

@@ -6,6 +6,7 @@
 #include <abut/math/result.hpp>
 #include <abut/shape/view/shape_ref.hpp>
 
+#include <cstddef>
 #include <initializer_list>
 #include <span>
 #include <vector>
@@ -57,6 +58,8 @@ public:
     bool set_outline(std::span<const Vec2> loop, double min_width = 0);
 
 private:
+    friend Result<Polygon> load_polygon(std::span<const std::byte> bytes);
+
     void write_sides();
 
     std::vector<Vec2> points_;  ///< empty: the point 0, also after a move

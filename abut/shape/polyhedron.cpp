@@ -1,8 +1,7 @@
-#include <abut/convex/hull/hull.hpp>
 #include <abut/convex/hull/limited/limited_hull.hpp>
-#include <abut/convex/point_soa.hpp>
 #include <abut/math/dvec.hpp>
 #include <abut/math/simd/library_entry.hpp>
+#include <abut/shape/detail/polyhedron_data.hpp>
 #include <abut/shape/polyhedron.hpp>
 
 #include <utility>
@@ -17,23 +16,6 @@ constexpr Vec3 origin3(0.0f);
 constexpr Facets no_facets;
 
 }  // namespace
-
-struct Polyhedron::Data {
-    explicit Data(Hull3 built)
-        : hull(std::move(built)),
-          facets{hull.normals, hull.loops, hull.loop_ends, hull.edges, hull.offsets},
-          columns(3 * padded_count(hull.points.size())),
-          lanes(make_soa(hull.points, columns.data())),
-          ball(ball_around<3>(hull.points)) {}
-    Data(const Data&) = delete;
-    Data& operator=(const Data&) = delete;
-
-    Hull3 hull;
-    Facets facets;  ///< refers to `hull`
-    std::vector<float> columns;
-    PointSoa lanes;  ///< refers to `columns`
-    BoundingBall<3> ball;
-};
 
 Result<Polyhedron> Polyhedron::build(std::span<const Vec3> points) {
     return build(points, HullOptions());

@@ -7,9 +7,11 @@
 #include <abut/math/result.hpp>
 #include <abut/shape/view/shape_ref.hpp>
 
+#include <cstddef>
 #include <initializer_list>
 #include <memory>
 #include <span>
+#include <vector>
 
 namespace abut {
 
@@ -73,6 +75,9 @@ public:
     const detail::PointSoa* lanes() const;
 
 private:
+    friend std::vector<std::byte> save(const Polyhedron& polyhedron);
+    friend Result<Polyhedron> load_polyhedron(std::span<const std::byte> bytes);
+
     struct Data;
     std::shared_ptr<const Data> data_;  ///< null: the point 0, also after a move
 };

@@ -9,12 +9,14 @@
 #include <abut/shape/half_space.hpp>
 #include <abut/shape/view/view.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include <glm/ext/vector_uint2.hpp>
 #include <glm/ext/vector_uint3.hpp>
@@ -129,6 +131,11 @@ public:
     std::size_t piece_count() const;
 
 private:
+    template <int E>
+    friend std::vector<std::byte> save(const SolidBsp<E>& level);
+    template <int E>
+    friend Result<SolidBsp<E>> load_solid_bsp(std::span<const std::byte> bytes);
+
     using PieceCall = FunctionRef<bool(std::uint32_t, std::span<const Vec<D>>)>;
 
     explicit SolidBsp(std::shared_ptr<const detail::SolidTree<D>> tree) : tree_(std::move(tree)) {}
@@ -176,5 +183,12 @@ template <int D>
 bool solid_contains(const SolidBsp<D>& level, const Vec<D>& point) {
     return contains(bounds(level), point) && level.contains(point);
 }
+
+namespace detail {
+
+template <int D>
+inline constexpr CompositeKind composite_kind<SolidBsp<D>> = CompositeKind::solid_bsp;
+
+}  // namespace detail
 
 }  // namespace abut

@@ -89,4 +89,11 @@ inline std::uint32_t part_neighbour(const TileMap& map, std::uint32_t part, std:
     return map.neighbour(part, side);
 }
 
+namespace detail {
+
+template <>
+inline constexpr CompositeKind composite_kind<TileMap> = CompositeKind::tile_map;
+
+}  // namespace detail
+
 }  // namespace abut

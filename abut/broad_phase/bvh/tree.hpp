@@ -16,10 +16,16 @@
 
 namespace abut::detail {
 
+struct BvhTopology;
+
 template <int D>
 class BvhTree {
 public:
     void build(std::span<const Aabb<D>> boxes, Executor* executor);
+    /// Rebuilds a tree of the same boxes from its topology. Any topology gives a valid tree of limited depth that has
+    /// all boxes, or false, and the tree stays as it was.
+    bool build(std::span<const Aabb<D>> boxes, const BvhTopology& topology);
+    BvhTopology topology() const;
     void update(std::span<const Aabb<D>> boxes, Executor* executor);
     std::uint32_t insert(const Aabb<D>& box);
     void erase(std::uint32_t index);

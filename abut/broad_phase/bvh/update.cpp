@@ -177,6 +177,8 @@ bool BvhTree<D>::insert_missing(std::span<const Aabb<D>> boxes) {
 }
 
 template void BvhTree<2>::update(std::span<const Aabb<2>>, Executor*);
+template void BvhTree<2>::refit(std::span<const Aabb<2>>, Executor*);
+template void BvhTree<3>::refit(std::span<const Aabb<3>>, Executor*);
 template void BvhTree<3>::update(std::span<const Aabb<3>>, Executor*);
 
 }  // namespace abut::detail

@@ -26,7 +26,7 @@ struct CornerPair {
 std::vector<CornerPair> sum_corners(std::span<const DVec<2>> a, std::span<const DVec<2>> b);
 
 /// The surface of a polytope in 3D.
-struct Surface {
+struct SummandSurface {
     std::span<const DVec<3>> corners;
     const Facets* facets = nullptr;  ///< loops and edges over the corners; null if the corners are collinear
     bool mirrored = false;           ///< the loops are clockwise seen from outside
@@ -40,6 +40,6 @@ struct Surface {
 /// that is a face of A, a face of B, or a crossing of an arc of A and an arc of B (Gregorius: "The Separating Axis Test
 /// between Convex Polyhedra", 2013). So the pairs of support points there, to within 2^-23 of the size, are all pairs.
 /// O(n m) steps for n and m corners, of a few comparisons each; k log k for the k pairs found.
-std::vector<CornerPair> sum_corners(const Surface& a, const Surface& b);
+std::vector<CornerPair> sum_corners(const SummandSurface& a, const SummandSurface& b);
 
 }  // namespace abut::detail

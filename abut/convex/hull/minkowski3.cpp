@@ -32,7 +32,7 @@ struct Arc {
 
 class GaussMap {
 public:
-    explicit GaussMap(const Surface& surface) : surface_(surface), tolerance_(hull_tolerance * extent()) {
+    explicit GaussMap(const SummandSurface& surface) : surface_(surface), tolerance_(hull_tolerance * extent()) {
         for (std::size_t face = 0; face < surface.facets->loop_ends.size(); ++face)
             normals_.push_back(normal(surface.facets->loop(face)));
         for (const FacetEdge& edge : surface.facets->edges) arcs_.push_back(arc(edge));
@@ -52,7 +52,7 @@ private:
     DVec<3> normal(std::span<const std::uint32_t> loop) const;
     Arc arc(const FacetEdge& edge) const;
 
-    const Surface& surface_;
+    const SummandSurface& surface_;
     double tolerance_;  ///< a smaller height difference counts as zero
     std::vector<DVec<3>> normals_;
     std::vector<Arc> arcs_;
@@ -153,7 +153,7 @@ void add_crossings(const GaussMap& map_a, const GaussMap& map_b, Add add) {
 
 }  // namespace
 
-std::vector<CornerPair> sum_corners(const Surface& a, const Surface& b) {
+std::vector<CornerPair> sum_corners(const SummandSurface& a, const SummandSurface& b) {
     std::vector<CornerPair> result;
     const auto add = [&](std::uint32_t i, std::uint32_t j) { result.push_back({i, j}); };
     if (a.facets == nullptr || b.facets == nullptr) {

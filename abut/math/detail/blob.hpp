@@ -69,6 +69,17 @@ struct BlobScalar<glm::vec<N, T>> {
     using type = T;
 };
 
+/// Converts an item to or from little-endian order, scalar by scalar.
+template <class T>
+T little_scalars(T item) {
+    using Number = typename BlobScalar<T>::type;
+    std::array<Number, sizeof(T) / sizeof(Number)> numbers;
+    std::memcpy(numbers.data(), &item, sizeof(T));
+    for (Number& each : numbers) each = little(each);
+    std::memcpy(static_cast<void*>(&item), numbers.data(), sizeof(T));
+    return item;
+}
+
 class BlobWriter {
 public:
     template <class T>
@@ -81,16 +92,17 @@ public:
         if constexpr (std::endian::native == std::endian::little) {
             raw(values.data(), values.size() * sizeof(T));
         } else {
-            using Number = typename BlobScalar<T>::type;
             for (const T& value : values) {
-                std::array<Number, sizeof(T) / sizeof(Number)> numbers;
-                std::memcpy(numbers.data(), &value, sizeof(T));
-                for (const Number each : numbers) number(each);
+                const T ordered = little_scalars(value);
+                raw(&ordered, sizeof(T));
             }
         }
     }
     /// Appends the checksum of all bytes so far.
-    void checksum() { number(blob_checksum(bytes)); }
+    template <std::size_t sums = 1>
+    void checksum() {
+        number(blob_checksum<sums>(bytes));
+    }
 
     std::vector<std::byte> bytes;
 
@@ -118,34 +130,44 @@ public:
         return true;
     }
     /// Reads `count` numbers. The number of bytes is checked before memory is allocated.
-    template <class T>
-    bool array(std::vector<T>& values, std::uint64_t count) {
+    template <class T, class Allocator>
+    bool array(std::vector<T, Allocator>& values, std::uint64_t count) {
         if (count > bytes_.size() / sizeof(T)) return false;
         const auto size = static_cast<std::size_t>(count) * sizeof(T);
-        values.resize(static_cast<std::size_t>(count));
-        if (count == 0) return true;
-        std::memcpy(static_cast<void*>(values.data()), bytes_.data(), size);
-        bytes_ = bytes_.subspan(size);
-        if constexpr (std::endian::native != std::endian::little) {
-            using Number = typename BlobScalar<T>::type;
-            for (T& value : values) {
-                std::array<Number, sizeof(T) / sizeof(Number)> numbers;
-                std::memcpy(numbers.data(), &value, sizeof(T));
-                for (Number& each : numbers) each = little(each);
-                std::memcpy(static_cast<void*>(&value), numbers.data(), sizeof(T));
-            }
+        values.clear();
+        values.reserve(static_cast<std::size_t>(count));
+        // By parts that stay in the cache: the bytes needn't be aligned, and a resize would set the items to zero
+        // first.
+        std::array<T, std::max<std::size_t>(1, 4096 / sizeof(T))> part;
+        for (std::size_t next = 0; next < size;) {
+            const std::size_t part_size = std::min(sizeof(part), size - next);
+            std::memcpy(static_cast<void*>(part.data()), bytes_.data() + next, part_size);
+            next += part_size;
+            const std::span<T> items(part.data(), part_size / sizeof(T));
+            if constexpr (std::endian::native != std::endian::little)
+                for (T& value : items) value = little_scalars(value);
+            values.insert(values.end(), items.begin(), items.end());
         }
+        bytes_ = bytes_.subspan(size);
+        return true;
+    }
+    /// Removes so many bytes from the front, without a copy.
+    bool bytes(std::span<const std::byte>& part, std::uint64_t count) {
+        if (count > bytes_.size()) return false;
+        part = bytes_.first(static_cast<std::size_t>(count));
+        bytes_ = bytes_.subspan(part.size());
         return true;
     }
     /// Removes the checksum from the end. Returns false if it doesn't match the bytes of `whole` before it, or if too
     /// few bytes are left.
+    template <std::size_t sums = 1>
     bool checksum(std::span<const std::byte> whole) {
         std::uint64_t sum = 0;
         if (bytes_.size() < sizeof(sum)) return false;
         const std::size_t before = whole.size() - sizeof(sum);
         BlobReader(whole.subspan(before)).number(sum);
         bytes_ = bytes_.first(bytes_.size() - sizeof(sum));
-        return sum == blob_checksum(whole.first(before));
+        return sum == blob_checksum<sums>(whole.first(before));
     }
 
 private:

@@ -2,6 +2,7 @@
 
 // Edge adjacency of the triangles of a mesh. Not for users.
 
+#include <abut/math/detail/large_pages.hpp>
 #include <abut/shape/view/parts.hpp>
 
 #include <array>
@@ -15,7 +16,7 @@ namespace abut::detail {
 
 struct MeshAdjacency {
     /// For each triangle, the triangle across the edge from corner i to the next, in either direction.
-    std::vector<std::array<std::uint32_t, 3>> neighbours;
+    std::vector<std::array<std::uint32_t, 3>, LargePages<std::array<std::uint32_t, 3>>> neighbours;
     /// True if the mesh is watertight: each edge occurs equally often in both directions.
     bool closed = false;
 };

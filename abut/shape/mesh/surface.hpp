@@ -11,8 +11,8 @@
 namespace abut::detail {
 
 struct MeshSurface {
-    std::vector<Vec3> points;
-    std::vector<glm::uvec3> triangles;
+    std::vector<Vec3, LargePages<Vec3>> points;
+    std::vector<glm::uvec3, LargePages<glm::uvec3>> triangles;
     MeshTree tree;
     MeshAdjacency adjacency;
 

@@ -101,10 +101,15 @@ template <int D>
 void SolidParts<D>::finish() {
     hulls_.finish();
     places_.shrink_to_fit();
-    std::vector<Aabb<D>> boxes;
-    boxes.reserve(size());
-    for (std::size_t i = 0; i < size(); ++i) boxes.push_back(detail::bounds(part(i)));
-    tree_.build(boxes);
+    tree_.build(boxes());
+}
+
+template <int D>
+std::vector<Aabb<D>> SolidParts<D>::boxes() const {
+    std::vector<Aabb<D>> result;
+    result.reserve(size());
+    for (std::size_t i = 0; i < size(); ++i) result.push_back(detail::bounds(part(i)));
+    return result;
 }
 
 template <int D>

@@ -14,6 +14,9 @@
 
 namespace abut::detail {
 
+class BlobWriter;
+class BlobReader;
+
 /// Convex hulls in packed arrays.
 template <int D>
 class SolidHulls;
@@ -26,6 +29,9 @@ public:
     void finish() {}
     /// Makes `part` refer to hull `index`.
     void write(std::size_t index, Convex<2>& part) const;
+    void save(BlobWriter& writer) const;
+    /// Reads so many hulls. Returns what is wrong with them; null if nothing is.
+    const char* load(BlobReader& reader, std::size_t count);
 
 private:
     struct Hull {
@@ -44,6 +50,8 @@ public:
     /// Call once after the last `add`: the arrays don't move afterwards.
     void finish();
     void write(std::size_t index, Convex<3>& part) const;
+    void save(BlobWriter& writer) const;
+    const char* load(BlobReader& reader, std::size_t count);
 
 private:
     /// First index of a hull in each array; its end is the first index of the next hull.
@@ -71,6 +79,11 @@ public:
     void add(std::span<const DVec<D>> corners, std::uint32_t number);
     void finish();
 
+    void save(BlobWriter& writer) const;
+    /// Reads what `save` has written, in place of adding parts and `finish`. Returns what is wrong with it; null if
+    /// nothing is.
+    const char* load(BlobReader& reader);
+
     std::size_t size() const { return places_.size(); }
     Aabb<D> bounds() const { return tree_.bounds(); }
     void each_part(const Aabb<D>& box, PartVisitor<D> visit) const;
@@ -83,6 +96,7 @@ private:
         std::uint32_t number;
     };
     Convex<D> part(std::size_t index) const;
+    std::vector<Aabb<D>> boxes() const;
 
     std::vector<Place> places_;
     SolidHulls<D> hulls_;

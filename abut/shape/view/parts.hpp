@@ -36,11 +36,19 @@ using PartReachVisitor = FunctionRef<float(const Convex<D>& part, std::uint32_t 
 struct MeshTree;
 struct MeshSurface;
 
+/// The composite shapes of this library, whose type a file of a Compound needs.
+enum class CompositeKind : std::uint8_t { other, mesh, height_field, tile_map, chain, compound, solid_bsp };
+
+/// Each shape specialises it.
+template <class S>
+inline constexpr CompositeKind composite_kind = CompositeKind::other;
+
 /// A composite shape: the union of its parts. Refers to the shape and must not outlive it.
 template <int D>
 struct Composite : Placement<D> {
     Aabb<D> bounds;  ///< in the local frame, before the placement
     const void* object = nullptr;
+    CompositeKind kind = CompositeKind::other;  ///< the type of the object
     /// Visits at least the parts whose boxes overlap `box`, both in the local frame.
     void (*each_part)(const void* object, const Aabb<D>& box, PartVisitor<D> visit) = nullptr;
     /// Visits at least the parts whose boxes the moving box overlaps within reach, roughly front to back. Null: a query

@@ -211,6 +211,7 @@ requires(!detail::HasConvex<S> && !detail::HasSupport<S> && detail::HasParts<S>)
     detail::Composite<D> result;
     result.bounds = bounds(shape);
     result.object = &shape;
+    result.kind = detail::composite_kind<S>;
     result.each_part = [](const void* object, const Aabb<D>& box, detail::PartVisitor<D> visit) {
         each_part(*static_cast<const S*>(object), box, detail::part_to<bool>(visit));
         detail::clear_upper_halves();
