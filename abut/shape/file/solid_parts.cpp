@@ -126,7 +126,12 @@ const char* SolidParts<D>::load(BlobReader& reader) {
     BvhTopology topology;
     if (!read(reader, topology)) return parts_end;
     hulls_.finish();
-    if (!BvhAccess::tree(tree_).build(boxes(), topology)) return "has a tree that doesn't match its parts";
+    const std::vector<Aabb<D>> all = boxes();
+    // Coordinates may be finite and their sums not.
+    for (const Aabb<D>& box : all)
+        for (int axis = 0; axis < D; ++axis)
+            if (!(box.min[axis] <= box.max[axis])) return "has a part that is not finite";
+    if (!BvhAccess::tree(tree_).build(all, topology)) return "has a tree that doesn't match its parts";
     return nullptr;
 }
 

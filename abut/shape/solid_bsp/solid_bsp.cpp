@@ -144,6 +144,7 @@ std::size_t SolidBsp<D>::piece_count() const {
 }
 
 #define ABUT_INSTANTIATE(D)                                                                                       \
+    template SolidBsp<D>::SolidBsp(std::shared_ptr<const SolidTree<D>>);                                          \
     template Result<SolidBsp<D>> SolidBsp<D>::build(std::span<const Vec<D>>, std::span<const SolidBsp<D>::Face>); \
     template bool SolidBsp<D>::contains(const Vec<D>&) const;                                                     \
     template void SolidBsp<D>::visit_from(const Vec<D>&, SolidBsp<D>::PieceCall) const;                           \
