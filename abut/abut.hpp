@@ -68,6 +68,7 @@
 #include <abut/walk/file.hpp>
 #include <abut/walk/survey.hpp>
 #include <abut/walk/walk_mesh.hpp>
+#include <abut/world/file.hpp>
 #include <abut/world/history.hpp>
 #include <abut/world/options.hpp>
 #include <abut/world/results.hpp>

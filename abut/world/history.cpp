@@ -18,7 +18,7 @@ History<D>::History(const World<D>& world, std::size_t ticks, const HistoryOptio
     : world_(&world),
       ticks_(std::max<std::size_t>(ticks, 1)),
       options_(options),
-      past_(WorldOptions{.broad_phase = BroadPhaseKind::bvh}) {
+      past_(WorldOptions{.broad_phase = BroadPhaseKind::bvh, .filter_edges = world.filters_edges_}) {
     ABUT_ASSERT(ticks > 0);
 }
 

@@ -40,10 +40,11 @@ const KindOfFile& kind_of(SavedKind kind) {
 }
 
 /// Other files of this library.
-constexpr std::array<std::pair<Signature, std::string_view>, 3> other_files{{
+constexpr std::array<std::pair<Signature, std::string_view>, 4> other_files{{
     {{'a', 'b', 'u', 't', 'f', 'l', 'd', '\n'}, "a field"},
     {{'a', 'b', 'u', 't', 'w', 'l', 'k', '\n'}, "a walk mesh"},
     {{'a', 'b', 'u', 't', 'w', 'l', 'd', '\n'}, "a snapshot of a world"},
+    {{'a', 'b', 'u', 't', 'w', 's', 'h', '\n'}, "a world with its shapes"},
 }};
 
 Problem bad_file(std::string message) {
