@@ -127,12 +127,20 @@ void each_placement_number(Placement& placement, Visit visit) {
     visit(placement.radius);
 }
 
-/// Whether the numbers are finite, and a placement that is called similar keeps angles.
+/// Lengths change by at most this factor, in either direction, or to zero, so that boxes stay in the range of floats.
+constexpr double max_factor = 1e12;
+
+/// Whether the numbers are in range, and a placement that is called similar keeps angles.
 template <int D>
 bool is_placement(const Placement<D>& placement) {
+    constexpr double farthest = 1e18;
     bool result = placement.scale >= 0 && placement.inner_radius >= 0 && placement.radius >= 0;
-    // Squares of sums don't overflow a double.
-    each_placement_number(placement, [&](double number) { result = result && std::abs(number) < 1e100; });
+    each_placement_number(placement, [&](double number) { result = result && std::abs(number) <= farthest; });
+    for (const DVec<D>& column : placement.place.column) result = result && largest(column) <= max_factor;
+    const double det = determinant(placement.place);
+    if (det != 0)
+        for (const DVec<D>& column : inverse(placement.place, det).column)
+            result = result && largest(column) <= max_factor;
     if (!result || !placement.similar) return result;
     const double square = placement.scale * placement.scale;
     for (std::size_t i = 0; i < static_cast<std::size_t>(D); ++i)
