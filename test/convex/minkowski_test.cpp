@@ -63,7 +63,7 @@ struct Body {
         for (const Vec3& point : hull.points) corners.emplace_back(point);
     }
 
-    Surface surface() const { return {corners, facets.edges.empty() ? nullptr : &facets, false}; }
+    SummandSurface surface() const { return {corners, facets.edges.empty() ? nullptr : &facets, false}; }
 
     Hull3 hull;
     Facets facets;
@@ -113,7 +113,7 @@ TEST(SumOfSurfaces, TakesLoopsThatAreClockwise) {
     Body mirrored = tetrahedron;
     mirrored.facets = {mirrored.hull.normals, mirrored.hull.loops, mirrored.hull.loop_ends, mirrored.hull.edges};
     for (DVec<3>& corner : mirrored.corners) corner = -corner;
-    const Surface surface{mirrored.corners, &mirrored.facets, true};
+    const SummandSurface surface{mirrored.corners, &mirrored.facets, true};
     std::set<std::vector<double>> found, expected;
     for (const CornerPair& pair : sum_corners(tetrahedron.surface(), surface)) {
         const DVec<3> corner = tetrahedron.corners[pair.a] + mirrored.corners[pair.b];
