@@ -23,7 +23,7 @@ constexpr std::size_t checksum_sums = 8;
 template <int D>
 Pose<D> random_pose(Random& random) {
     Pose<D> pose{.position = {}, .rotation = random.rotation<D>()};
-    for (int i = 0; i < D; ++i) pose.position[i] = random.uniform_float(-4, 4);
+    for (int i = 0; i < D; ++i) pose.position[i] = random.uniform_float(-8, 8);
     return pose;
 }
 
@@ -33,7 +33,8 @@ World<D> random_world(Random& random) {
     World<D> world;
     const auto add = [&](const auto& shape) {
         ItemOptions<D> options{.pose = random_pose<D>(random), .user = static_cast<std::uint64_t>(world.size())};
-        options.fixed = random.chance(0.2);
+        // Two levels, each of many parts, take long to test.
+        options.fixed = random.chance(0.2) || std::holds_alternative<detail::Composite<D>>(View<D>(view(shape)));
         options.sensor = random.chance(0.1);
         options.continuous = random.chance(0.1);
         options.group = random.chance(0.1) ? -3 : 0;
@@ -83,7 +84,7 @@ Bits play(World<D>& world, std::uint64_t seed) {
     Bits bits;
     for (int frame = 0; frame < 5; ++frame) {
         world.each_item([&](Id id) {
-            if (random.chance(0.2)) world.move(id, random_pose<D>(random));
+            if (!world.is_fixed(id) && random.chance(0.5)) world.move(id, random_pose<D>(random));
         });
         bits.put(world.add(Ball<D>{random_pose<D>(random).position, 0.5f}));
         const Events events = world.update();
@@ -103,7 +104,7 @@ TYPED_TEST_SUITE(WorldFile, Dimensions);
 
 TYPED_TEST(WorldFile, IsTheSameWorldAgain) {
     constexpr int D = TypeParam::value;
-    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    for (std::uint64_t seed = 0; seed < 10; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         Random random(seed);
         World<D> world = random_world<D>(random);

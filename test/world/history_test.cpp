@@ -202,7 +202,7 @@ TEST(History, ItsCopiesLiveOn) {
     }
 }
 
-const Ray2 to_the_right{{-10, 0}, {1, 0}, 100};
+const Ray2 along_the_row{{-10, 0}, {1, 0}, 100};
 
 TEST(History, HoldsWhatWasRemovedAndNotWhatWasAdded) {
     World2 world;
@@ -218,14 +218,14 @@ TEST(History, HoldsWhatWasRemovedAndNotWhatWasAdded) {
     past.record();
     EXPECT_EQ(added.index, removed.index);
 
-    EXPECT_EQ(past.at(0).raycast(to_the_right)->hit.distance, 9);
+    EXPECT_EQ(past.at(0).raycast(along_the_row)->hit.distance, 9);
     EXPECT_EQ(past.at(0, 0.5f).user(removed), 7u);
     EXPECT_FALSE(past.at(0).contains(added));
-    EXPECT_EQ(past.at(1).raycast(to_the_right)->hit.distance, 8);
+    EXPECT_EQ(past.at(1).raycast(along_the_row)->hit.distance, 8);
     EXPECT_EQ(past.at(1, 1).user(removed), 8u);
-    EXPECT_FALSE(past.at(2).raycast(to_the_right));
+    EXPECT_FALSE(past.at(2).raycast(along_the_row));
     EXPECT_EQ(past.at(2, 0.5f).size(), 0u);
-    EXPECT_EQ(past.at(3).raycast(to_the_right)->id, added);
+    EXPECT_EQ(past.at(3).raycast(along_the_row)->id, added);
     EXPECT_FALSE(past.at(3).contains(removed));
 }
 
@@ -252,7 +252,7 @@ TEST(History, IsWhereItsItemsWereBetweenTwoTicks) {
     world.move(id, {{4, 0}, Turn::by(1)});
     past.record();
     EXPECT_EQ(past.at(0, 0.25f).pose(id).position, Vec2(1, 0));
-    EXPECT_EQ(past.at(0, 0.25f).raycast(to_the_right)->hit.distance, 10);
+    EXPECT_EQ(past.at(0, 0.25f).raycast(along_the_row)->hit.distance, 10);
     EXPECT_EQ(past.at(0, 0.25f).pose(id), pose_at(Motion2::between(place(0), world.pose(id)), 0.25f));
     EXPECT_EQ(past.at(0, 1).pose(id), world.pose(id));
     EXPECT_EQ(past.at(1, 0.5f).pose(id), world.pose(id)) << "nothing comes after the last tick";
