@@ -40,8 +40,8 @@ public:
         }
     }
 
-    /// Brings the levels up to date where the summaries of some cells have changed: those from `first` to the one before
-    /// `end`, in columns and rows.
+    /// Brings the levels up to date where the summaries of some cells have changed: those from `first` to the one
+    /// before `end`, in columns and rows.
     template <class CellSummary>
     void update(glm::uvec2 first, glm::uvec2 end, CellSummary&& summary_of) {
         Level below = cells_;
