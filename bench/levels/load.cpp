@@ -30,8 +30,8 @@ Job load_terrain() {
                          values[0] = static_cast<double>(mesh->triangles().size());
                      }};
     const Side copy{"copy of the bytes", [bytes, count](std::span<double> values) {
-                        const std::vector<std::byte> copy(*bytes);
-                        values[0] = copy.back() == bytes->back() ? count : 0;
+                        const std::vector<std::byte> copied(*bytes);
+                        values[0] = copied.back() == bytes->back() ? count : 0;
                     }};
     return {.items = ground->triangles.size(), .values = 1, .sides = {load, build, copy}};
 }
