@@ -3,13 +3,20 @@
 
 #include "../oracle/random.hpp"
 #include "support/bits.hpp"
+#include <abut/query/closest.hpp>
+#include <abut/query/raycast.hpp>
+#include <abut/query/sweep.hpp>
 #include <abut/shape/box.hpp>
 #include <abut/shape/height_field.hpp>
 #include <abut/shape/placed.hpp>
 #include <abut/shape/tile_map.hpp>
 #include <abut/world/world.hpp>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include <gtest/gtest.h>
