@@ -35,6 +35,11 @@ struct ChangingTiles {
     static constexpr int D = 2;
     static constexpr std::uint32_t columns = 23, rows = 9;
 
+    /// The right half is empty at first, so that tiles are set outside of the blocks that had any.
+    ChangingTiles() {
+        for (std::uint32_t i = 0; i < tiles.size(); ++i)
+            if (i % columns > columns / 2) tiles[i] = Tile::empty;
+    }
     Level build() const { return *TileMap::build(tiles, columns, {0.75f, 0.5f}); }
     void change(Random& random, TileMap& map) {
         const auto index = static_cast<std::uint32_t>(random.uniform_float(0, columns * rows - 0.01));
