@@ -34,7 +34,7 @@ struct Room {
     Id bullet;
 };
 
-constexpr WorldDrawOptions nothing{.shapes = false, .contacts = false, .impacts = false};
+const WorldDrawOptions nothing{.shapes = false, .contacts = false, .impacts = false};
 
 template <class Things>
 auto count_of(const Things& things, const Color& color) {

@@ -209,7 +209,7 @@ struct Twins {
 
 TYPED_TEST(Batch, AddedAndRemovedItemsAreThoseOfOneByOne) {
     constexpr int D = TypeParam::value;
-    for (const std::uint64_t seed : {21, 22, 23}) {
+    for (const std::uint64_t seed : {21u, 22u, 23u}) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         oracle::Random random(seed);
         Twins<D> twins;

@@ -51,7 +51,7 @@ bool are_sound(std::span<const Vec3> points, std::span<const glm::uvec3> triangl
     constexpr float largest = std::numeric_limits<float>::max();
     bool finite = true;
     for (const Vec3& p : points)
-        finite &= (std::abs(p.x) <= largest) & (std::abs(p.y) <= largest) & (std::abs(p.z) <= largest);
+        for (int axis = 0; axis < 3; ++axis) finite &= std::abs(p[axis]) <= largest;
     std::uint32_t highest = 0;
     for (const glm::uvec3& t : triangles) highest = std::max(highest, std::max(t.x, std::max(t.y, t.z)));
     return finite && !triangles.empty() && highest < points.size();

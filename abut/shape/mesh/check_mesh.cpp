@@ -88,8 +88,10 @@ bool is_within(const MeshLeaf& leaf, const Aabb3& box) {
 }
 bool is_within(const Aabb3& inner, const Aabb3& outer) {
     bool result = true;
-    for (int axis = 0; axis < 3; ++axis)
-        result &= (inner.min[axis] >= outer.min[axis]) & (inner.max[axis] <= outer.max[axis]);
+    for (int axis = 0; axis < 3; ++axis) {
+        result &= inner.min[axis] >= outer.min[axis];
+        result &= inner.max[axis] <= outer.max[axis];
+    }
     return result;
 }
 

@@ -263,12 +263,12 @@ private:
         const auto ball = detail::SmallBall<D>::around(detail::bounding_ball(item.second.placed({})));
         if (!std::isfinite(ball.radius)) return true;
         const detail::DVec<D> middle = detail::affine(item.second.options.pose).point(detail::DVec<D>(ball.center));
-        bool covered = false;
+        bool is_inside = false;
         others(item, item)(middle, 0, [&](const detail::ClosestPoint<D>& closest) {
-            covered = covered || closest.distance < 0;
+            is_inside = is_inside || closest.distance < 0;
             return 0.0;
         });
-        return !covered;
+        return !is_inside;
     }
 
     /// Visits the closest points on the neighbours of an item, except on `but`: items that pair with it, are no
