@@ -142,8 +142,7 @@ void TileMap::set(std::uint32_t index, Tile tile) {
     if (data_.use_count() > 1) data_ = std::make_shared<Data>(*data_);
     data_->tiles[index] = tile;
     const glm::uvec2 place(index % columns(), index / columns());
-    data_->blocks.update(place, place + 1u,
-                         [&](std::uint32_t x, std::uint32_t y) { return std::as_const(*data_).of_tile(x, y); });
+    data_->blocks.update(place, place + 1u, [&](std::uint32_t x, std::uint32_t y) { return data_->of_tile(x, y); });
 }
 
 std::span<const Tile> TileMap::tiles() const {

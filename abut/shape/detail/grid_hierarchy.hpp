@@ -30,14 +30,8 @@ public:
             count += last.size();
             levels_.push_back(last);
         }
-        summaries_.assign(count, Summary());
-        for (std::uint32_t y = 0; y < rows; ++y)
-            for (std::uint32_t x = 0; x < columns; ++x) add(1, x, y, summary_of(x, y));
-        for (std::uint32_t level = 2; level <= levels_.size(); ++level) {
-            const Level& below = level_of(level - 1);
-            for (std::uint32_t y = 0; y < below.rows; ++y)
-                for (std::uint32_t x = 0; x < below.columns; ++x) add(level, x, y, at(level - 1, x, y));
-        }
+        summaries_.resize(count);
+        update({0, 0}, {columns, rows}, summary_of);
     }
 
     /// Brings the levels up to date where the summaries of some cells have changed: those from `first` to the one
@@ -122,12 +116,6 @@ private:
     };
 
     const Level& level_of(std::uint32_t level) const { return levels_[level - 1]; }
-
-    void add(std::uint32_t level, std::uint32_t x, std::uint32_t y, const Summary& below) {
-        const Level& of = level_of(level);
-        Summary& summary = summaries_[of.first + std::size_t{y / side} * of.columns + x / side];
-        summary = merged(summary, below);
-    }
 
     static std::uint32_t first(std::uint32_t level, std::uint32_t i, std::uint32_t count) {
         std::uint64_t result = i;

@@ -50,4 +50,14 @@ Problem truncated_shape(SavedKind kind);
 Problem overlong_shape(SavedKind kind);
 Problem bad_shape(SavedKind kind, std::string_view what, std::size_t index = 0);
 
+/// Reads a whole file: read(reader) reads the data, and returns false if there are too few.
+template <class Read>
+std::optional<Problem> read_shape(std::span<const std::byte> bytes, SavedKind kind, const Read& read) {
+    BlobReader reader(bytes);
+    if (std::optional<Problem> wrong = open_shape(reader, bytes, kind)) return wrong;
+    if (!read(reader)) return truncated_shape(kind);
+    if (reader.left() != 0) return overlong_shape(kind);
+    return std::nullopt;
+}
+
 }  // namespace abut::detail

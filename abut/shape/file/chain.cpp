@@ -32,16 +32,15 @@ std::vector<std::byte> save(const Chain& chain) {
 Result<Chain> load_chain(std::span<const std::byte> bytes) {
     enter_library();
     constexpr SavedKind kind = SavedKind::chain;
-    BlobReader reader(bytes);
-    if (std::optional<Problem> wrong = open_shape(reader, bytes, kind)) return *std::move(wrong);
     auto data = std::make_shared<Chain::Data>();
     std::uint32_t flags = 0;
     std::uint64_t points = 0;
     BvhTopology topology;
-    if (!reader.number(flags) || !reader.number(points) || !reader.array(data->points, points) ||
-        !read(reader, topology))
-        return truncated_shape(kind);
-    if (reader.left() != 0) return overlong_shape(kind);
+    const auto read_data = [&](BlobReader& reader) {
+        return reader.number(flags) && reader.number(points) && reader.array(data->points, points) &&
+               read(reader, topology);
+    };
+    if (std::optional<Problem> wrong = read_shape(bytes, kind, read_data)) return *std::move(wrong);
     if (flags > all_chain_flags) return bad_shape(kind, "is of an unknown kind");
     data->closed = (flags & closed_chain_flag) != 0;
     data->one_sided = (flags & one_sided_flag) != 0;

@@ -48,18 +48,16 @@ std::vector<std::byte> save(const HeightField& field) {
 Result<HeightField> load_height_field(std::span<const std::byte> bytes) {
     enter_library();
     constexpr SavedKind kind = SavedKind::height_field;
-    BlobReader reader(bytes);
-    if (std::optional<Problem> wrong = open_shape(reader, bytes, kind)) return *std::move(wrong);
     std::uint32_t columns = 0;
     Vec2 cell{};
     std::uint64_t heights = 0, hole_bytes = 0;
     std::vector<float> height;
     std::vector<std::uint8_t> bits;
-    const bool whole = reader.number(columns) && reader.number(cell.x) && reader.number(cell.y) &&
-                       reader.number(heights) && reader.number(hole_bytes) && reader.array(height, heights) &&
-                       reader.array(bits, hole_bytes);
-    if (!whole) return truncated_shape(kind);
-    if (reader.left() != 0) return overlong_shape(kind);
+    const auto read = [&](BlobReader& reader) {
+        return reader.number(columns) && reader.number(cell.x) && reader.number(cell.y) && reader.number(heights) &&
+               reader.number(hole_bytes) && reader.array(height, heights) && reader.array(bits, hole_bytes);
+    };
+    if (std::optional<Problem> wrong = read_shape(bytes, kind, read)) return *std::move(wrong);
     std::vector<std::uint32_t> holes;
     for (std::size_t i = 0; i < bits.size(); ++i)
         for (std::uint32_t bit = 0; bit < 8; ++bit)
@@ -83,17 +81,15 @@ std::vector<std::byte> save(const TileMap& map) {
 
 Result<TileMap> load_tile_map(std::span<const std::byte> bytes) {
     enter_library();
-    constexpr SavedKind kind = SavedKind::tile_map;
-    BlobReader reader(bytes);
-    if (std::optional<Problem> wrong = open_shape(reader, bytes, kind)) return *std::move(wrong);
     std::uint32_t columns = 0;
     Vec2 cell{};
     std::uint64_t count = 0;
     std::vector<Tile> tiles;
-    const bool whole = reader.number(columns) && reader.number(cell.x) && reader.number(cell.y) &&
-                       reader.number(count) && reader.array(tiles, count);
-    if (!whole) return truncated_shape(kind);
-    if (reader.left() != 0) return overlong_shape(kind);
+    const auto read = [&](BlobReader& reader) {
+        return reader.number(columns) && reader.number(cell.x) && reader.number(cell.y) && reader.number(count) &&
+               reader.array(tiles, count);
+    };
+    if (std::optional<Problem> wrong = read_shape(bytes, SavedKind::tile_map, read)) return *std::move(wrong);
     return TileMap::build(tiles, columns, cell);
 }
 

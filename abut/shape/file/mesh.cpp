@@ -96,23 +96,21 @@ std::vector<std::byte> save(const Mesh& mesh) {
 
 Result<Mesh> load_mesh(std::span<const std::byte> bytes) {
     enter_library();
-    BlobReader reader(bytes);
-    if (std::optional<Problem> wrong = open_shape(reader, bytes, SavedKind::mesh)) return *std::move(wrong);
     auto surface = std::make_shared<MeshSurface>();
     MeshTree& tree = surface->tree;
     std::uint64_t points = 0, triangles = 0, leaves = 0, nodes = 0, components = 0;
     std::uint32_t flags = 0;
     std::vector<Vec3> box;
-    bool whole = true;
-    for (std::uint64_t* count : {&points, &triangles, &leaves, &nodes, &components})
-        whole = whole && reader.number(*count);
-    whole = whole && reader.number(flags) && reader.array(box, 2);
-    whole = whole && reader.array(surface->points, points) && reader.array(surface->triangles, triangles) &&
-            reader.array(surface->adjacency.neighbours, triangles) && reader.array(tree.order, triangles) &&
-            reader.array(tree.leaves, leaves) && reader.array(tree.nodes, nodes) &&
-            reader.array(surface->components, components);
-    if (!whole) return truncated_shape(SavedKind::mesh);
-    if (reader.left() != 0) return overlong_shape(SavedKind::mesh);
+    const auto read = [&](BlobReader& reader) {
+        bool whole = true;
+        for (std::uint64_t* count : {&points, &triangles, &leaves, &nodes, &components})
+            whole = whole && reader.number(*count);
+        return whole && reader.number(flags) && reader.array(box, 2) && reader.array(surface->points, points) &&
+               reader.array(surface->triangles, triangles) && reader.array(surface->adjacency.neighbours, triangles) &&
+               reader.array(tree.order, triangles) && reader.array(tree.leaves, leaves) &&
+               reader.array(tree.nodes, nodes) && reader.array(surface->components, components);
+    };
+    if (std::optional<Problem> wrong = read_shape(bytes, SavedKind::mesh, read)) return *std::move(wrong);
     if (flags > all_mesh_flags) return bad_shape(SavedKind::mesh, "is of an unknown kind");
     if (!are_sound(surface->points, surface->triangles))
         if (std::optional<Problem> problem = problem_of_faces<3>(surface->points, surface->triangles, "a mesh"))

@@ -26,12 +26,10 @@ std::vector<std::byte> save(const Polygon& polygon) {
 Result<Polygon> load_polygon(std::span<const std::byte> bytes) {
     enter_library();
     constexpr SavedKind kind = SavedKind::polygon;
-    BlobReader reader(bytes);
-    if (std::optional<Problem> wrong = open_shape(reader, bytes, kind)) return *std::move(wrong);
     std::uint64_t count = 0;
     Polygon result;
-    if (!reader.number(count) || !reader.array(result.points_, count)) return truncated_shape(kind);
-    if (reader.left() != 0) return overlong_shape(kind);
+    const auto read = [&](BlobReader& reader) { return reader.number(count) && reader.array(result.points_, count); };
+    if (std::optional<Problem> wrong = read_shape(bytes, kind, read)) return *std::move(wrong);
     if (const char* fault = fault_of_outline(result.points_)) return bad_shape(kind, fault);
     result.write_sides();
     return result;

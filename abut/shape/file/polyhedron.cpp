@@ -45,19 +45,19 @@ std::vector<std::byte> save(const Polyhedron& polyhedron) {
 Result<Polyhedron> load_polyhedron(std::span<const std::byte> bytes) {
     enter_library();
     constexpr SavedKind kind = SavedKind::polyhedron;
-    BlobReader reader(bytes);
-    if (std::optional<Problem> wrong = open_shape(reader, bytes, kind)) return *std::move(wrong);
     Hull3 hull;
     std::uint32_t rank = 0;
     std::uint64_t points = 0, faces = 0, loops = 0, edges = 0;
-    bool whole = reader.number(rank);
-    for (std::uint64_t* count : {&points, &faces, &loops, &edges}) whole = whole && reader.number(*count);
-    for (int axis = 0; axis < 3; ++axis) whole = whole && reader.number(hull.centroid[axis]);
-    whole = whole && reader.number(hull.volume) && reader.number(hull.area) && reader.array(hull.points, points) &&
-            reader.array(hull.normals, faces) && reader.array(hull.offsets, faces) &&
-            reader.array(hull.loop_ends, faces) && reader.array(hull.loops, loops) && reader.array(hull.edges, edges);
-    if (!whole) return truncated_shape(kind);
-    if (reader.left() != 0) return overlong_shape(kind);
+    const auto read = [&](BlobReader& reader) {
+        bool whole = reader.number(rank);
+        for (std::uint64_t* count : {&points, &faces, &loops, &edges}) whole = whole && reader.number(*count);
+        for (int axis = 0; axis < 3; ++axis) whole = whole && reader.number(hull.centroid[axis]);
+        return whole && reader.number(hull.volume) && reader.number(hull.area) && reader.array(hull.points, points) &&
+               reader.array(hull.normals, faces) && reader.array(hull.offsets, faces) &&
+               reader.array(hull.loop_ends, faces) && reader.array(hull.loops, loops) &&
+               reader.array(hull.edges, edges);
+    };
+    if (std::optional<Problem> wrong = read_shape(bytes, kind, read)) return *std::move(wrong);
     const Facets facets{hull.normals, hull.loops, hull.loop_ends, hull.edges, hull.offsets};
     if (const char* fault = fault_of_hull(hull.points, facets)) return bad_shape(kind, fault);
     hull.rank = rank_of_hull(hull.points.size(), hull.normals.size());
