@@ -4,6 +4,7 @@
 #include <abut/math/detail/blob.hpp>
 #include <abut/math/simd/library_entry.hpp>
 #include <abut/shape/detail/content_hash.hpp>
+#include <abut/shape/file/blob.hpp>
 #include <abut/shape/file/child.hpp>
 #include <abut/world/file.hpp>
 
@@ -24,11 +25,8 @@ constexpr std::array<char, 8> signature{'a', 'b', 'u', 't', 'w', 's', 'h', '\n'}
 constexpr std::uint32_t file_version = 1;
 constexpr std::size_t checksum_sums = 8;
 
-Problem bad_file(std::string message) {
-    return {ProblemCode::bad_format, std::move(message)};
-}
 Problem truncated() {
-    return bad_file("the file of a world is truncated");
+    return bad_file_of("a world", "is truncated");
 }
 
 template <int D>
@@ -49,58 +47,37 @@ std::optional<HalfSpaceView<D>> read_half_space(BlobReader& reader) {
     return result;
 }
 
-void write_with_size(BlobWriter& writer, std::span<const std::byte> bytes) {
-    writer.number(static_cast<std::uint64_t>(bytes.size()));
-    writer.array(bytes);
-}
-bool read_with_size(BlobReader& reader, std::span<const std::byte>& bytes) {
-    std::uint64_t size = 0;
-    return reader.number(size) && reader.bytes(bytes, size);
-}
-
 /// Checks the beginning and the checksum, and moves the reader to what follows.
 template <int D>
 std::optional<Problem> open(BlobReader& reader, std::span<const std::byte> bytes) {
     for (const char expected : signature) {
         char c = 0;
         if (!reader.number(c) || c != expected)
-            return bad_file("this is not the file of a world: its signature is wrong");
+            return Problem{ProblemCode::bad_format, "this is not the file of a world: its signature is wrong"};
     }
     std::uint32_t version = 0, dimension = 0;
     if (!reader.number(version) || !reader.number(dimension)) return truncated();
     if (version != file_version || dimension != D)
-        return bad_file("the file of a world has version " + std::to_string(version) + " and dimension " +
-                        std::to_string(dimension) + ", not " + std::to_string(file_version) + " and " +
-                        std::to_string(D));
-    if (!reader.checksum<checksum_sums>(bytes))
-        return bad_file("the file of a world is damaged: its checksum is wrong");
+        return bad_file_of("a world", "has version " + std::to_string(version) + " and dimension " +
+                                          std::to_string(dimension) + ", not " + std::to_string(file_version) +
+                                          " and " + std::to_string(D));
+    if (!reader.checksum<checksum_sums>(bytes)) return bad_file_of("a world", "is damaged: its checksum is wrong");
     return std::nullopt;
 }
 
 /// Adds the shapes to a world, as items from which a snapshot takes them.
 template <int D>
 std::optional<Problem> add_shapes(BlobReader& reader, World<D>& world) {
-    std::uint64_t half_spaces = 0, files = 0, children = 0;
+    std::uint64_t half_spaces = 0;
     if (!reader.number(half_spaces)) return truncated();
     for (std::uint64_t i = 0; i < half_spaces; ++i) {
         const std::optional<HalfSpaceView<D>> half_space = read_half_space<D>(reader);
-        if (!half_space) return bad_file("the file of a world is truncated, or has a half-space without a normal");
+        if (!half_space) return bad_file_of("a world", "is truncated, or has a half-space without a normal");
         world.add(Unowned<D>{View<D>(*half_space)});
     }
-    if (!reader.number(files)) return truncated();
-    ChildReader<D> loader;
-    for (std::uint64_t i = 0; i < files; ++i) {
-        std::span<const std::byte> file;
-        if (!read_with_size(reader, file)) return truncated();
-        if (std::optional<Problem> problem = loader.add_file(file, 0)) return problem;
-    }
-    if (!reader.number(children)) return truncated();
-    for (std::uint64_t i = 0; i < children; ++i) {
-        const std::optional<AnyShape<D>> child = loader.child(reader);
-        if (!child) return bad_file("the file of a world is truncated, or has a shape that contradicts itself");
-        world.add(*child);
-    }
-    if (!loader.are_all_used()) return bad_file("the file of a world has files in another order than its shapes");
+    const Result<std::vector<AnyShape<D>>> children = ChildReader<D>().read(reader, 0, "a world");
+    if (!children) return children.problem();
+    for (const AnyShape<D>& child : *children) world.add(child);
     return std::nullopt;
 }
 
@@ -111,7 +88,7 @@ Result<std::vector<std::byte>> save_with_shapes(World<D>& world) {
     enter_library();
     BlobWriter half_spaces;
     ChildWriter<D> children;
-    std::uint64_t half_space_count = 0, child_count = 0;
+    std::uint64_t half_space_count = 0;
     std::unordered_set<std::uint64_t> saved;
     std::optional<Problem> problem;
     world.each_item([&](Id id) {
@@ -123,10 +100,7 @@ Result<std::vector<std::byte>> save_with_shapes(World<D>& world) {
             ++half_space_count;
             return true;
         }
-        if (children.add(view)) {
-            ++child_count;
-            return true;
-        }
+        if (children.add(view)) return true;
         problem = {ProblemCode::bad_argument,
                    "item " + std::to_string(id.index) + " has a shape of a kind that can't be saved", id.index};
         return false;
@@ -139,11 +113,10 @@ Result<std::vector<std::byte>> save_with_shapes(World<D>& world) {
     writer.number(static_cast<std::uint32_t>(D));
     writer.number(half_space_count);
     writer.array(std::span<const std::byte>(half_spaces.bytes));
-    writer.number(static_cast<std::uint64_t>(children.files().size()));
-    for (const std::vector<std::byte>& file : children.files()) write_with_size(writer, file);
-    writer.number(child_count);
-    writer.array(children.bytes());
-    write_with_size(writer, world.save());
+    children.write(writer);
+    const std::vector<std::byte> snapshot = world.save();
+    writer.number(static_cast<std::uint64_t>(snapshot.size()));
+    writer.array(std::span(snapshot));
     writer.checksum<checksum_sums>();
     return std::move(writer.bytes);
 }
@@ -155,9 +128,10 @@ Result<World<D>> load_world(std::span<const std::byte> bytes, const WorldOptions
     if (std::optional<Problem> problem = open<D>(reader, bytes)) return *std::move(problem);
     World<D> world(options);
     if (std::optional<Problem> problem = add_shapes(reader, world)) return *std::move(problem);
+    std::uint64_t size = 0;
     std::span<const std::byte> snapshot;
-    if (!read_with_size(reader, snapshot)) return truncated();
-    if (reader.left() != 0) return bad_file("the file of a world has extra bytes at its end");
+    if (!reader.number(size) || !reader.bytes(snapshot, size)) return truncated();
+    if (reader.left() != 0) return bad_file_of("a world", "has extra bytes at its end");
     if (std::optional<Problem> problem = world.restore(snapshot)) return *std::move(problem);
     return world;
 }

@@ -118,7 +118,10 @@ Problem overlong_shape(SavedKind kind) {
     return bad_shape(kind, "has extra bytes at its end");
 }
 Problem bad_shape(SavedKind kind, std::string_view what, std::size_t index) {
-    return {ProblemCode::bad_format, "the file of " + std::string(kind_of(kind).name) + " " + std::string(what), index};
+    return bad_file_of(name_of(kind), what, index);
+}
+Problem bad_file_of(std::string_view name, std::string_view what, std::size_t index) {
+    return {ProblemCode::bad_format, "the file of " + std::string(name) + " " + std::string(what), index};
 }
 
 }  // namespace abut::detail

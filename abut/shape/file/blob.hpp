@@ -49,6 +49,8 @@ std::optional<Problem> open_shape(BlobReader& reader, std::span<const std::byte>
 Problem truncated_shape(SavedKind kind);
 Problem overlong_shape(SavedKind kind);
 Problem bad_shape(SavedKind kind, std::string_view what, std::size_t index = 0);
+/// The same by the name of what the file holds, with its article.
+Problem bad_file_of(std::string_view name, std::string_view what, std::size_t index = 0);
 
 /// Reads a whole file: read(reader) reads the data, and returns false if there are too few.
 template <class Read>

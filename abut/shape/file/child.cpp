@@ -162,9 +162,25 @@ std::optional<Problem> add_loaded(Result<S> loaded, auto& shapes) {
 
 template <int D>
 bool ChildWriter<D>::add(const View<D>& child) {
-    if (const auto* convex = std::get_if<Convex<D>>(&child)) return add(*convex);
+    const auto* convex = std::get_if<Convex<D>>(&child);
     const auto* composite = std::get_if<Composite<D>>(&child);
-    return composite != nullptr && add(*composite);
+    const bool added = convex != nullptr ? add(*convex) : composite != nullptr && add(*composite);
+    count_ += added ? 1 : 0;
+    return added;
+}
+
+template <int D>
+void ChildWriter<D>::write(BlobWriter& writer) const {
+    std::size_t size = writer_.bytes.size() + 2 * sizeof(std::uint64_t);
+    for (const std::vector<std::byte>& file : files_) size += sizeof(std::uint64_t) + file.size();
+    writer.bytes.reserve(writer.bytes.size() + size);
+    writer.number(static_cast<std::uint64_t>(files_.size()));
+    for (const std::vector<std::byte>& file : files_) {
+        writer.number(static_cast<std::uint64_t>(file.size()));
+        writer.array(std::span(file));
+    }
+    writer.number(count_);
+    writer.array(std::span(writer_.bytes));
 }
 
 template <int D>
@@ -216,6 +232,27 @@ bool ChildWriter<D>::add(const Composite<D>& child) {
     writer_.number(*file);
     add(static_cast<const Placement<D>&>(child));
     return true;
+}
+
+template <int D>
+Result<std::vector<AnyShape<D>>> ChildReader<D>::read(BlobReader& reader, int nesting, std::string_view name) {
+    std::uint64_t files = 0, size = 0, count = 0;
+    if (!reader.number(files)) return bad_file_of(name, "is truncated");
+    for (std::uint64_t i = 0; i < files; ++i) {
+        std::span<const std::byte> file;
+        if (!reader.number(size) || !reader.bytes(file, size)) return bad_file_of(name, "is truncated");
+        if (std::optional<Problem> wrong = add_file(file, nesting)) return *std::move(wrong);
+    }
+    if (!reader.number(count)) return bad_file_of(name, "is truncated");
+    std::vector<AnyShape<D>> children;
+    for (std::uint64_t i = 0; i < count; ++i) {
+        std::optional<AnyShape<D>> next = child(reader);
+        if (!next) return bad_file_of(name, "is truncated, or has a child that contradicts itself", children.size());
+        children.push_back(*std::move(next));
+    }
+    // The children refer to the files one after the other, each when it is new.
+    if (used_ != shapes_.size()) return bad_file_of(name, "has files in another order than its children");
+    return children;
 }
 
 template <int D>

@@ -18,6 +18,7 @@
 #include <map>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -34,9 +35,8 @@ class ChildWriter {
 public:
     /// Returns false if no file can hold it.
     bool add(const View<D>& child);
-
-    std::span<const std::vector<std::byte>> files() const { return files_; }
-    std::span<const std::byte> bytes() const { return writer_.bytes; }
+    /// Appends the files, each with its size, and the children.
+    void write(BlobWriter& writer) const;
 
 private:
     bool add(const Convex<D>& child);
@@ -49,6 +49,7 @@ private:
     std::vector<std::vector<std::byte>> files_;
     std::map<const void*, std::uint32_t> numbers_;
     BlobWriter writer_;
+    std::uint64_t count_ = 0;
 };
 
 template <int D>
@@ -59,12 +60,13 @@ using SavedShape = std::conditional_t<D == 2, std::variant<Polygon, Chain, TileM
 template <int D>
 class ChildReader {
 public:
-    std::optional<Problem> add_file(std::span<const std::byte> file, int nesting);
-    std::optional<AnyShape<D>> child(BlobReader& reader);
-    /// Whether the children refer to the files one after the other, each when it is new.
-    bool are_all_used() const { return used_ == shapes_.size(); }
+    /// The children of a file of what has this name, inside of so many compounds, counting its own.
+    Result<std::vector<AnyShape<D>>> read(BlobReader& reader, int nesting, std::string_view name);
 
 private:
+    std::optional<Problem> add_file(std::span<const std::byte> file, int nesting);
+    std::optional<AnyShape<D>> child(BlobReader& reader);
+
     std::vector<SavedShape<D>> shapes_;
     std::size_t used_ = 0;
 };

@@ -65,16 +65,8 @@ Result<std::vector<std::byte>> save(const Compound<D>& compound) {
         if (!children.add(compound.child(i)))
             return Problem{ProblemCode::bad_argument,
                            "child " + std::to_string(i) + " is a shape of a kind that can't be saved", i};
-    std::size_t size = children.bytes().size();
-    for (const std::vector<std::byte>& file : children.files()) size += 8 + file.size();
-    BlobWriter writer = begin_shape(compound_kind<D>, size + 64 * compound.size());
-    writer.number(static_cast<std::uint64_t>(children.files().size()));
-    for (const std::vector<std::byte>& file : children.files()) {
-        writer.number(static_cast<std::uint64_t>(file.size()));
-        writer.array(std::span(file));
-    }
-    writer.number(static_cast<std::uint64_t>(compound.size()));
-    writer.array(children.bytes());
+    BlobWriter writer = begin_shape(compound_kind<D>, 0);
+    children.write(writer);
     write(writer, BvhAccess::tree(compound.data_->tree).topology());
     return end_shape(std::move(writer));
 }
@@ -85,28 +77,14 @@ Result<Compound<D>> detail::load_nested(std::span<const std::byte> bytes, int ne
     BlobReader reader(bytes);
     if (std::optional<Problem> wrong = open_shape(reader, bytes, kind)) return *std::move(wrong);
     if (nesting > max_nesting) return too_many_children();
-    std::uint64_t files = 0, size = 0, count = 0;
-    if (!reader.number(files)) return truncated_shape(kind);
-    ChildReader<D> loader;
-    for (std::uint64_t i = 0; i < files; ++i) {
-        std::span<const std::byte> file;
-        if (!reader.number(size) || !reader.bytes(file, size)) return truncated_shape(kind);
-        if (std::optional<Problem> wrong = loader.add_file(file, nesting)) return *std::move(wrong);
-    }
-    if (!reader.number(count)) return truncated_shape(kind);
-    std::vector<AnyShape<D>> children;
-    for (std::uint64_t i = 0; i < count; ++i) {
-        std::optional<AnyShape<D>> child = loader.child(reader);
-        if (!child) return bad_shape(kind, "is truncated, or has a child that contradicts itself", children.size());
-        children.push_back(*std::move(child));
-    }
+    const Result<std::vector<AnyShape<D>>> children = ChildReader<D>().read(reader, nesting, name_of(kind));
+    if (!children) return children.problem();
     BvhTopology topology;
     if (!read(reader, topology)) return truncated_shape(kind);
     if (reader.left() != 0) return overlong_shape(kind);
-    if (!loader.are_all_used()) return bad_shape(kind, "has files in another order than its children");
     auto data = std::make_shared<typename Compound<D>::Data>();
     std::vector<Aabb<D>> boxes;
-    if (std::optional<Problem> problem = data->set(children, boxes)) return *std::move(problem);
+    if (std::optional<Problem> problem = data->set(*children, boxes)) return *std::move(problem);
     if (!BvhAccess::tree(data->tree).build(boxes, topology))
         return bad_shape(kind, "has a tree that doesn't match its children");
     Compound<D> result(std::move(data));
