@@ -39,8 +39,8 @@ public:
 
     /// A view of the shape. Each call makes one; it refers to this shape and must not outlive it.
     View<D> view() const { return stored_->view(); }
-    /// A view of the shape after a rigid map.
-    View<D> moved(const detail::Affine<D>& rigid) const { return stored_->moved(rigid); }
+    /// A view of the shape at a pose.
+    View<D> placed(const Pose<D>& pose) const { return stored_->placed(pose); }
     /// The bounding box of the shape at a pose; empty if a number is NaN or infinite.
     Aabb<D> bounds(const Pose<D>& pose) const { return stored_->bounds(pose, false); }
     /// The same with a margin, so that it rejects no hit within the tolerance: a ray may hit a shape that it misses by
@@ -57,6 +57,8 @@ public:
         edit(own());
         return true;
     }
+    /// Where its data is, to fetch it from memory early.
+    const void* data() const { return &*stored_; }
     /// Whether both are copies of one AnyShape, which share its data.
     bool is_shared_with(const AnyShape& other) const { return stored_ == other.stored_; }
 
@@ -64,7 +66,7 @@ private:
     struct Stored : detail::Counted {
         virtual ~Stored() = default;
         virtual View<D> view() const = 0;
-        virtual View<D> moved(const detail::Affine<D>& rigid) const = 0;
+        virtual View<D> placed(const Pose<D>& pose) const = 0;
         virtual Aabb<D> bounds(const Pose<D>& pose, bool grow) const = 0;
         virtual const char* type() const = 0;
     };
@@ -84,11 +86,17 @@ private:
             detail::clear_upper_halves();
             return own;
         }
-        View<D> moved(const detail::Affine<D>& rigid) const override {
-            using abut::view;
-            const auto& own = view(shape);
-            detail::clear_upper_halves();
-            return detail::moved(own, rigid);
+        View<D> placed(const Pose<D>& pose) const override {
+            if constexpr (detail::PlacedByPose<S, D>) {
+                const View<D> result(convex(shape, pose));
+                detail::clear_upper_halves();
+                return result;
+            } else {
+                using abut::view;
+                const auto& own = view(shape);
+                detail::clear_upper_halves();
+                return detail::moved(own, detail::affine(pose));
+            }
         }
         Aabb<D> bounds(const Pose<D>& pose, bool grow) const override {
             constexpr bool is_short =
@@ -96,7 +104,7 @@ private:
             if constexpr (is_short)
                 return detail::bounds_at(shape, pose, grow);
             else
-                return detail::bounds_at<D>(moved(detail::affine(pose)), grow);
+                return detail::bounds_at<D>(placed(pose), grow);
         }
 
         const char* type() const override { return &type_of<S>; }

@@ -23,11 +23,6 @@ ShapeType shape_type(const View<D>& view) {
     return static_cast<ShapeType>(std::min(convex.count, 4u) - 1);
 }
 
-BallEarlyOuts::Entry& BallEarlyOuts::entry(ShapeType a, ShapeType b, bool sensor) {
-    const std::size_t low = static_cast<std::size_t>(std::min(a, b)), high = static_cast<std::size_t>(std::max(a, b));
-    return entries_[sensor ? 1 : 0][high * (high + 1) / 2 + low];
-}
-
 void BallEarlyOuts::add_sample(Entry& entry, const std::array<double, 3>& nanoseconds, bool balls_overlap,
                                bool shapes_overlap) {
     constexpr std::array<std::size_t, 2> balls_first{0, 1};

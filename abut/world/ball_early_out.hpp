@@ -6,6 +6,8 @@
 #include <abut/query/early_out.hpp>
 #include <abut/shape/view/view.hpp>
 
+#include <algorithm>
+
 namespace abut {
 
 /// When a world tests bounding balls before the shapes. No answer depends on it.
@@ -47,7 +49,10 @@ public:
         bool pays = false;        ///< whether the early out costs less than it saves
     };
 
-    Entry& entry(ShapeType a, ShapeType b, bool sensor);
+    Entry& entry(ShapeType a, ShapeType b, bool sensor) {
+        const auto low = static_cast<std::size_t>(std::min(a, b)), high = static_cast<std::size_t>(std::max(a, b));
+        return entries_[sensor ? 1 : 0][high * (high + 1) / 2 + low];
+    }
 
     bool is_used(const Entry& entry) const {
         return mode_ == BallEarlyOut::measured ? entry.pays : mode_ == BallEarlyOut::always;

@@ -445,12 +445,11 @@ std::optional<Problem> World<D>::restore(std::span<const std::byte> bytes) {
         previous_poses_.push_back(motion.previous);
     }
     near_.clear();
-    results_.found.clear();
+    results_.clear();
     are_all_reported_ = true;
-    results_.impacts.clear();
-    results_.touching.assign(snapshot.touching.begin(), snapshot.touching.end());
+    for (const IdPair& pair : snapshot.touching) results_.add_touching(pair);
     results_.passed.assign(snapshot.passed.begin(), snapshot.passed.end());
-    pair_index_.build(results_.touching, results_.touching.capacity());
+    pair_index_.defer(results_.touching.size());
     return std::nullopt;
 }
 

@@ -36,30 +36,37 @@ bool World<D>::may_pair(std::uint32_t slot, std::uint32_t other) const {
 
 /// Whether a pair filter has just begun to accept a near pair.
 template <int D>
-bool World<D>::has_new_answer(const IdPair& pair) const {
+bool World<D>::has_new_answer(const detail::SlotPair& pair) const {
     return filters_pairs_ && !std::binary_search(last_near_.begin(), last_near_.end(), pair);
 }
 
-/// Finds the near pairs, in any order. The threads of an executor report pairs at the same time.
+/// Finds the near pairs, in the order of the broad phases: those of one place lie together, and so their items are in
+/// the caches when they are tested. The threads of an executor report pairs at the same time.
 template <int D>
 void World<D>::find_near(Executor* executor) {
-    near_keys_.clear();
+    std::swap(near_, last_near_);
+    near_.clear();
+    if (filters_edges_) memory_->neighbours.begin_update(items_.size());
     std::mutex mutex;
-    const int bits = slot_bits();
     const auto add = [&](const detail::ItemBoxes<D>& first, const detail::ItemBoxes<D>& second,
                          std::span<const detail::ItemPair> pairs) {
         constexpr std::size_t batch = 64;
         while (!pairs.empty()) {
-            std::array<std::uint64_t, batch> keys;
+            std::array<detail::SlotPair, batch> found;
             std::size_t count = 0;
             for (const auto& [i, j] : pairs.first(std::min(batch, pairs.size()))) {
                 const std::uint32_t slot = first.slot(i), other = second.slot(j);
                 if ((widened_ && !may_touch(slot, other)) || !may_pair(slot, other)) continue;
-                keys[count++] = std::uint64_t{std::min(slot, other)} << bits | std::max(slot, other);
+                found[count++] = {std::min(slot, other), std::max(slot, other)};
             }
             pairs = pairs.subspan(std::min(batch, pairs.size()));
             const std::lock_guard lock(mutex);
-            near_keys_.insert(near_keys_.end(), keys.begin(), keys.begin() + static_cast<std::ptrdiff_t>(count));
+            near_.insert(near_.end(), found.begin(), found.begin() + static_cast<std::ptrdiff_t>(count));
+            if (!filters_edges_) continue;
+            for (const auto& [a, b] : std::span(found).first(count)) {
+                memory_->neighbours.count(a);
+                memory_->neighbours.count(b);
+            }
         }
         return true;
     };
@@ -69,50 +76,25 @@ void World<D>::find_near(Executor* executor) {
     moving_.phase().each_overlapping_pair(
         fixed_.phase(),
         detail::PairsCall([&](std::span<const detail::ItemPair> pairs) { return add(moving_, fixed_, pairs); }));
-}
-
-/// The number of bits of a slot in near_keys_.
-template <int D>
-int World<D>::slot_bits() const {
-    return static_cast<int>(std::bit_width(items_.size()));
-}
-
-/// Writes the near pairs in the order of their ids.
-template <int D>
-void World<D>::sort_near() {
-    sorted_near_keys_.reserve(near_keys_.capacity());
-    sorted_near_keys_.resize(near_keys_.size());
-    const int bits = slot_bits();
-    const std::uint64_t* const sorted =
-        detail::radix_sort(near_keys_.data(), sorted_near_keys_.data(), near_keys_.size(), 2 * bits,
-                           [](std::uint64_t key) { return key; });
-    std::swap(near_, last_near_);
-    near_.resize(near_keys_.size());
-    const std::uint64_t low_bits = (std::uint64_t{1} << bits) - 1;
-    for (std::size_t i = 0; i < near_.size(); ++i)
-        near_[i] = {id_of(static_cast<std::uint32_t>(sorted[i] >> bits)),
-                    id_of(static_cast<std::uint32_t>(sorted[i] & low_bits))};
+    if (filters_pairs_)
+        for (std::vector<detail::SlotPair>* pairs : {&near_, &last_near_})
+            if (!std::is_sorted(pairs->begin(), pairs->end())) std::sort(pairs->begin(), pairs->end());
 }
 
 /// Lists the neighbours of the items whose contacts are filtered.
 template <int D>
 void World<D>::list_neighbours() {
     detail::Neighbourhoods<D>& neighbours = memory_->neighbours;
-    neighbours.begin_update(items_.size());
-    const auto each_neighbour = [&](const auto& visit) {
-        for (const IdPair& pair : near_) {
-            const std::uint32_t a = pair.a.index - 1, b = pair.b.index - 1;
-            if (!are_neighbours(a, b)) continue;
-            if (!items_[a].fixed) visit(a, b);
-            if (!items_[b].fixed) visit(b, a);
-        }
-    };
-    each_neighbour([&](std::uint32_t slot, std::uint32_t) { neighbours.count(slot); });
-    neighbours.place();
-    each_neighbour([&](std::uint32_t slot, std::uint32_t other) { neighbours.add(slot, {other, box(other)}); });
+    neighbours.begin_lists(near_.size());
+    for (const auto& [a, b] : near_) {
+        const bool for_a = neighbours.may_have_several(a), for_b = neighbours.may_have_several(b);
+        if ((!for_a && !for_b) || !are_neighbours(a, b)) continue;
+        if (for_a && !items_[a].fixed) neighbours.add(a, {b, box(b)});
+        if (for_b && !items_[b].fixed) neighbours.add(b, {a, box(a)});
+    }
 }
 
-/// Tests all near pairs: with an executor in parts, whose results are joined in the order of the pairs.
+/// Tests all near pairs, with an executor in parts. Meanwhile results_ are those of the last update.
 template <int D>
 void World<D>::test_near(Executor* executor) {
     constexpr std::size_t min_part = 64, parts_per_worker = 8;
@@ -121,7 +103,7 @@ void World<D>::test_near(Executor* executor) {
     const std::size_t parts =
         workers == 1 ? 1 : std::clamp<std::size_t>(near_.size() / min_part, 1, parts_per_worker * workers);
     if (state.memories.size() < workers) state.memories.resize(workers);
-    if (state.later_parts.size() + 1 < parts) state.later_parts.resize(parts - 1);
+    if (state.parts.size() < parts) state.parts.resize(parts);
     state.free_memories.clear();
     for (std::uint32_t i = 0; i < state.memories.size(); ++i) {
         state.memories[i].clear();
@@ -137,18 +119,43 @@ void World<D>::test_near(Executor* executor) {
         };
         const std::uint32_t memory = take();
         const std::size_t begin = near_.size() * part / parts, end = near_.size() * (part + 1) / parts;
-        detail::PairResults<D>& stored = part == 0 ? results_ : state.later_parts[part - 1];
+        detail::PairResults<D>& stored = state.parts[part];
         // On the stack, off the cache lines that other threads use.
         detail::PairResults<D> results = std::move(stored);
         results.clear();
-        if (part > 0) results.reserve(end - begin);
+        if (parts > 1) results.reserve(end - begin);
         PairTests(*this, state.memories[memory], results, part == 0).run(begin, end);
         stored = std::move(results);
         const std::lock_guard lock(mutex);
         state.free_memories.push_back(memory);
     };
     detail::run_parallel(executor, static_cast<std::uint32_t>(parts), test_part);
-    for (const detail::PairResults<D>& later : std::span(state.later_parts).first(parts - 1)) results_.append(later);
+    join_results(std::span(state.parts).first(parts));
+}
+
+/// Joins what the parts found, in the order of the ids.
+template <int D>
+void World<D>::join_results(std::span<const detail::PairResults<D>> parts) {
+    std::vector<detail::TouchOfPart>&touches = memory_->touches, &scratch = memory_->sorted_touches;
+    const int bits = static_cast<int>(std::bit_width(items_.size()));
+    touches.clear();
+    for (std::uint32_t part = 0; part < parts.size(); ++part)
+        for (std::uint32_t i = 0; const IdPair& pair : parts[part].touching)
+            touches.push_back({std::uint64_t{pair.a.index} << bits | pair.b.index, part, i++});
+    scratch.reserve(touches.capacity());
+    scratch.resize(touches.size());
+    const detail::TouchOfPart* const sorted =
+        detail::radix_sort(touches.data(), scratch.data(), touches.size(), 2 * bits,
+                           [](const detail::TouchOfPart& touch) { return touch.key; });
+    std::swap(results_.touching, last_touching_);
+    std::swap(results_.passed, last_passed_);
+    results_.clear();
+    for (const detail::TouchOfPart& touch : std::span(sorted, touches.size())) {
+        results_.add_found(parts[touch.part], touch.place);
+        results_.add_touching(parts[touch.part].touching[touch.place]);
+    }
+    for (const detail::PairResults<D>& part : parts) results_.add_others(part);
+    results_.sort_others();
 }
 
 template <int D>
@@ -187,12 +194,8 @@ Events World<D>::find_events(Executor* executor) {
     if (memory_ == nullptr) memory_.reset(new detail::UpdateState<D>());
     memory_->find_neighbour_changed.defer();
     find_near(executor);
-    sort_near();
     if (filters_edges_) list_neighbours();
 
-    std::swap(results_.touching, last_touching_);
-    std::swap(results_.found, last_found_);
-    std::swap(results_.passed, last_passed_);
     test_near(executor);
     counts_ = {near_.size(), results_.tested, results_.balls};
     report_contacts();
@@ -203,12 +206,11 @@ Events World<D>::find_events(Executor* executor) {
     for (std::vector<IdPair>* list : {&results_.passed, &last_passed_}) list->reserve(results_.impacts.capacity());
     for (std::vector<IdPair>* list : {&began_, &ended_}) list->reserve(capacity + results_.impacts.capacity());
     fractions_.reserve(began_.capacity());
-    last_found_.reserve_like(results_.found);
     contacts_.reserve(results_.found.contacts.capacity());
     last_near_.reserve(near_.capacity());
     memory_->reserve(filters_edges_ ? items_.size() : 0, near_.capacity(), results_.found.contacts.capacity());
     compare_with_last();
-    pair_index_.build(results_.touching, capacity);
+    pair_index_.defer(capacity);
 
     for (const std::uint32_t slot : pending_) {
         items_[slot].pending = false;

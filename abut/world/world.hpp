@@ -387,7 +387,7 @@ private:
         const Item& item = items_[slot];
         return (item.fixed ? fixed_ : moving_).box(item.place);
     }
-    View<D> placed(const Item& item) const { return item.stored.moved(detail::affine(item.pose)); }
+    View<D> placed(const Item& item) const { return item.stored.placed(item.pose); }
     detail::BoundingBall<D> ball(const Item& item) const;
     void visit_items(FunctionRef<bool(Id)> visit) const;
     void visit_touching(Id id, FunctionRef<bool(Id)> visit) const;
@@ -412,12 +412,11 @@ private:
     bool may_touch(std::uint32_t slot, std::uint32_t other) const;
     bool may_pair(std::uint32_t slot, std::uint32_t other) const;
     void find_near(Executor* executor);
-    bool has_new_answer(const IdPair& pair) const;
-    int slot_bits() const;
-    void sort_near();
+    bool has_new_answer(const detail::SlotPair& pair) const;
     void list_neighbours();
     class PairTests;
     void test_near(Executor* executor);
+    void join_results(std::span<const detail::PairResults<D>> parts);
     std::optional<Hit<D>> sweep_pair(std::uint32_t slot, std::uint32_t other) const;
     bool filters_edges(std::uint32_t slot) const;
     /// Whether both items of a near pair are part of the surface that a third one touches. Sensors are not, and near by
@@ -473,14 +472,12 @@ private:
     std::vector<std::uint64_t> shape_hashes_;  // by slot; 0: not known; the vector may be shorter than items_
     detail::ReleasedShapes<D> released_shapes_;
 
-    std::vector<std::uint64_t> near_keys_, sorted_near_keys_;
-    std::vector<IdPair> near_, last_near_;
-    detail::UpdateMemory<D> memory_;  // made by the first update
-    detail::PairResults<D> results_;
+    std::vector<detail::SlotPair> near_, last_near_;   // sorted if a filter of pairs is in use
+    detail::UpdateMemory<D> memory_;                   // made by the first update
+    detail::PairResults<D> results_;                   // sorted
     std::vector<IdPair> last_touching_, last_passed_;  // of the update before
-    detail::FoundContacts<D> last_found_;
-    bool are_all_reported_ = true;           // of the contacts in results_
-    std::vector<WorldContact<D>> contacts_;  // those that are reported, if not all are
+    bool are_all_reported_ = true;                     // of the contacts in results_
+    std::vector<WorldContact<D>> contacts_;            // those that are reported, if not all are
     std::vector<IdPair> began_, stayed_, ended_;
     std::vector<float> fractions_;  // by index in began_
     detail::PairIndex pair_index_;  // over results_.touching

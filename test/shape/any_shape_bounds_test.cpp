@@ -2,6 +2,7 @@
 // size.
 
 #include "../oracle/random.hpp"
+#include <abut/broad_phase/boxes.hpp>
 #include <abut/shape/any_shape.hpp>
 #include <abut/shape/capsule.hpp>
 
@@ -33,10 +34,10 @@ std::vector<AnyShape<D>> some_shapes(Random& random) {
 
 template <int D>
 void expect_bounds(const AnyShape<D>& shape, const Pose<D>& pose) {
-    const View<D> placed = shape.moved(detail::affine(pose));
+    const View<D> placed = shape.placed(pose);
     const Aabb<D> box = shape.bounds(pose), grown = shape.bounds_for_queries(pose);
     if (!detail::is_finite(placed)) {
-        EXPECT_TRUE(is_empty(box) && is_empty(grown));
+        EXPECT_TRUE(detail::is_empty(box) && detail::is_empty(grown));
         return;
     }
     EXPECT_EQ(box, detail::bounds(placed));
@@ -81,7 +82,7 @@ TYPED_TEST(AnyShapeBounds, OfNumbersThatAreNotFiniteAreEmpty) {
         for (const AnyShape<D>& shape :
              std::vector<AnyShape<D>>{Ball<D>{zero, bad}, Box<D>{zero, Vec<D>(bad)}, Capsule<D>{zero, zero, bad},
                                       Capsule<D>{zero, Vec<D>(bad), 1}, Capsule<D>{Vec<D>(bad), zero, 1}})
-            EXPECT_TRUE(is_empty(shape.bounds_for_queries({})) && is_empty(shape.bounds({})));
+            EXPECT_TRUE(detail::is_empty(shape.bounds_for_queries({})) && detail::is_empty(shape.bounds({})));
 }
 
 }  // namespace

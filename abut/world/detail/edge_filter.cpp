@@ -135,7 +135,7 @@ bool World<D>::PairTests::find_contact(const IdPair& pair) {
     const bool has_parts = type_a == ShapeType::composite || type_b == ShapeType::composite;
     const bool is_filtered = world_.filters_edges(a) || world_.filters_edges(b);
     if (has_parts && is_filtered) return find_surface_contacts(pair);
-    const View<D>&placed_a = first_placed(a), &placed_b = placed_view(b);
+    const auto [placed_a, placed_b] = placed_views(pair);
     Contact<D>& found = results_.found.add(pair, {}).contact;
     // Balls have no edges to catch on.
     const bool is_unfiltered = is_filtered && (type_a != ShapeType::ball || type_b != ShapeType::ball);
@@ -157,8 +157,8 @@ template <int D>
 bool World<D>::PairTests::find_surface_contacts(const IdPair& pair) {
     const std::uint32_t a = pair.a.index - 1, b = pair.b.index - 1;
     const bool for_a = needs_filter(a), for_b = needs_filter(b);
-    const View<D>& placed_a = first_placed(a);
-    const View<D> placed_b = placed_view(b);  // a copy: the neighbours may take its place in the cache
+    // Copies: the neighbours may take their places in the cache.
+    const View<D> placed_a = placed_view(a), placed_b = placed_view(b);
     const std::size_t first = results_.found.size();
     bool touch = false;
     with_neighbours(a, b, for_a, for_b, [&](const NeighbourSurfaces<D>& neighbours) {
@@ -190,8 +190,8 @@ void World<D>::PairTests::filter_contacts() {
         if (!unfiltered.for_a && !unfiltered.for_b) continue;
         const WorldContact<D>& found = results_.found.contacts[unfiltered.found];
         const std::uint32_t a = found.a.index - 1, b = found.b.index - 1;
-        const View<D>& placed_a = first_placed(a);
-        const View<D> placed_b = placed_view(b);  // a copy: the neighbours may take its place in the cache
+        // Copies: the neighbours may take their places in the cache.
+        const View<D> placed_a = placed_view(a), placed_b = placed_view(b);
         with_neighbours(a, b, unfiltered.for_a, unfiltered.for_b, [&](NeighbourSurfaces<D> neighbours) {
             const auto nothing = [] { return NearestToCenter<D>(); };
             if (unfiltered.for_a) neighbours.nearest_to_a = &memory_.nearest[0].of(a, nothing);

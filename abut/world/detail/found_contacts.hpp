@@ -52,19 +52,14 @@ struct FoundContacts {
         contacts.reserve(count);
         states.reserve(count);
     }
-    void reserve_like(const FoundContacts& other) {
-        contacts.reserve(other.contacts.capacity());
-        states.reserve(other.states.capacity());
-        own_areas.reserve(other.own_areas.capacity());
-    }
-    void append(const FoundContacts& later) {
-        const auto first_area = static_cast<std::uint32_t>(own_areas.size());
-        const std::size_t first = states.size();
-        contacts.insert(contacts.end(), later.contacts.begin(), later.contacts.end());
-        states.insert(states.end(), later.states.begin(), later.states.end());
-        own_areas.insert(own_areas.end(), later.own_areas.begin(), later.own_areas.end());
-        for (FoundState& state : std::span(states).subspan(first))
-            if (state.own_area != FoundState::no_own_area) state.own_area += first_area;
+    /// Adds contacts `begin` to `end - 1` of a list.
+    void append(const FoundContacts& from, std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            contacts.push_back(from.contacts[i]);
+            states.push_back(from.states[i]);
+            if (const std::uint32_t area = from.states[i].own_area; area != FoundState::no_own_area)
+                set_own_area(states.size() - 1, from.own_areas[area]);
+        }
     }
     void set_own_area(std::size_t index, const WorldContact<D>& area) {
         states[index].own_area = static_cast<std::uint32_t>(own_areas.size());
@@ -72,7 +67,7 @@ struct FoundContacts {
     }
     WorldContact<D>& add(const IdPair& pair, const FoundState& state) {
         states.push_back(state);
-        WorldContact<D>& added = contacts.emplace_back();
+        WorldContact<D>& added = contacts.emplace_back(no_contact);
         added.a = pair.a;
         added.b = pair.b;
         return added;
@@ -81,6 +76,10 @@ struct FoundContacts {
         contacts.pop_back();
         states.pop_back();
     }
+
+private:
+    /// To copy: compilers clear a new contact byte by byte.
+    static inline const WorldContact<D> no_contact{};
 };
 
 }  // namespace abut::detail

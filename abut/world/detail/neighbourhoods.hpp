@@ -5,6 +5,7 @@
 #include <abut/math/aabb.hpp>
 #include <abut/math/simd/float4-inl.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstdint>
@@ -54,47 +55,58 @@ private:
     std::array<float, 2 * D> sides_;
 };
 
-/// The neighbours of all items, in an update that filters internal edges.
+/// The neighbours of all items that have several, in an update that filters internal edges.
 template <int D>
 class Neighbourhoods {
 public:
     static constexpr std::uint32_t none = 0xFFFFFFFF;
 
-    void begin_update(std::size_t items) { of_slot_.assign(items + 1, {}); }
-    void count(std::uint32_t slot) { ++of_slot_[slot + 1].begin; }
-    /// Reserves the places of the neighbours that were counted.
-    void place() {
-        std::uint32_t count = 0;
-        for (OfSlot& of_slot : of_slot_) count += std::exchange(of_slot.begin, count);
-        neighbours_.resize(count);
+    void begin_update(std::size_t items) {
+        near_counts_.assign(items, 0);
+        of_slot_.assign(items, {});
+        centers_.assign(items, Center::unknown);
+        end_ = 0;
     }
-    void add(std::uint32_t slot, const Neighbour<D>& neighbour) { neighbours_[of_slot_[slot + 1].begin++] = neighbour; }
-    /// The items that pair with this one and are no sensors.
+    /// Counts an item near this one, which may be a neighbour.
+    void count(std::uint32_t slot) { ++near_counts_[slot]; }
+    /// Call this when all are counted.
+    void begin_lists(std::size_t near_pairs) { neighbours_.resize(std::max(neighbours_.size(), 2 * near_pairs)); }
+    bool may_have_several(std::uint32_t slot) const { return near_counts_[slot] > 1; }
+    /// Adds a neighbour of an item that may have several. Lists that begin after one another lie beside each other.
+    void add(std::uint32_t slot, const Neighbour<D>& neighbour) {
+        OfSlot& list = of_slot_[slot];
+        if (list.count == 0) list.begin = std::exchange(end_, end_ + near_counts_[slot]);
+        neighbours_[list.begin + list.count++] = neighbour;
+    }
+    /// The items that pair with this one and are no sensors, if they may be several.
     std::span<const Neighbour<D>> of(std::uint32_t slot) const {
-        const std::uint32_t begin = of_slot_[slot].begin;
-        return std::span(neighbours_).subspan(begin, of_slot_[slot + 1].begin - begin);
+        if (!may_have_several(slot)) return {};
+        return std::span(neighbours_).subspan(of_slot_[slot].begin, of_slot_[slot].count);
     }
 
     // What is known of an item. Several threads may find out the same.
 
     /// The neighbour that ended the last search for the point nearest to a contact, likely the next; none at first.
     std::atomic_ref<std::uint32_t> last_cover(std::uint32_t slot) { return std::atomic_ref(of_slot_[slot].last_cover); }
-    enum class Center : std::uint32_t { unknown, covered, uncovered };
-    std::atomic_ref<Center> center(std::uint32_t slot) { return std::atomic_ref(of_slot_[slot].center); }
+    enum class Center : std::uint8_t { unknown, covered, uncovered };
+    std::atomic_ref<Center> center(std::uint32_t slot) { return std::atomic_ref(centers_[slot]); }
 
     void reserve(std::size_t items, std::size_t near_pairs) {
-        of_slot_.reserve(items + 1);
+        near_counts_.reserve(items);
+        of_slot_.reserve(items);
+        centers_.reserve(items);
         neighbours_.reserve(2 * near_pairs);
     }
 
 private:
     struct OfSlot {
-        /// In neighbours_. Until add() their number is in the next slot's, and then their end so far.
-        std::uint32_t begin = 0;
+        std::uint32_t begin = 0, count = 0;  ///< in neighbours_
         std::uint32_t last_cover = none;
-        Center center = Center::unknown;
     };
-    std::vector<OfSlot> of_slot_;  // and one more
+    std::vector<std::uint32_t> near_counts_;  // by slot
+    std::vector<OfSlot> of_slot_;
+    std::vector<Center> centers_;  // by slot
+    std::uint32_t end_ = 0;        // of the lists so far
     std::vector<Neighbour<D>> neighbours_;
 };
 

@@ -7,10 +7,14 @@
 
 namespace abut::detail {
 
-/// A stable sort by b's index suffices: the pairs are sorted by a, and in one update each index belongs to one id.
-void PairIndex::build(std::span<const IdPair> pairs, std::size_t capacity) {
+void PairIndex::defer(std::size_t capacity) {
     by_b_.reserve(capacity);
     scratch_.reserve(capacity);
+    build_.defer();
+}
+
+/// A stable sort by b's index suffices: the pairs are sorted by a, and in one update each index belongs to one id.
+void PairIndex::build(std::span<const IdPair> pairs) const {
     by_b_.resize(pairs.size());
     scratch_.resize(pairs.size());
     std::iota(by_b_.begin(), by_b_.end(), 0u);
@@ -23,6 +27,7 @@ void PairIndex::build(std::span<const IdPair> pairs, std::size_t capacity) {
 }
 
 void PairIndex::visit(std::span<const IdPair> pairs, Id id, FunctionRef<bool(Id)> visit) const {
+    build_.run([&] { build(pairs); });
     // The pairs with a lower id come first.
     const auto first_b =
         std::partition_point(by_b_.begin(), by_b_.end(), [&](std::uint32_t place) { return pairs[place].b < id; });

@@ -9,15 +9,18 @@
 
 namespace abut {
 
-/// Items are in memory by slot, and so those of a pair far apart: those of later pairs are
-/// fetched meanwhile.
+/// Items are in memory by slot, and so those of a pair far apart: those of later pairs are fetched meanwhile.
 template <int D>
 void World<D>::PairTests::run(std::size_t begin, std::size_t end) {
     constexpr std::size_t ahead = 8, cache_line = 64;
     for (std::size_t i = begin; i < end; ++i) {
-        const Item& later = items_[world_.near_[std::min(i + ahead, end - 1)].b.index - 1];
-        hwy::Prefetch(&later);
-        hwy::Prefetch(reinterpret_cast<const char*>(&later) + cache_line);
+        const detail::SlotPair& later = world_.near_[std::min(i + ahead, end - 1)];
+        for (const std::uint32_t slot : {later.a, later.b}) {
+            hwy::Prefetch(&items_[slot]);
+            hwy::Prefetch(reinterpret_cast<const char*>(&items_[slot]) + cache_line);
+        }
+        const detail::SlotPair& next = world_.near_[std::min(i + ahead / 2, end - 1)];
+        for (const std::uint32_t slot : {next.a, next.b}) hwy::Prefetch(items_[slot].stored.data());
         test_pair(world_.near_[i]);
     }
     filter_contacts();
@@ -25,13 +28,13 @@ void World<D>::PairTests::run(std::size_t begin, std::size_t end) {
 
 /// Tests a near pair. If nothing changed, the last result is repeated.
 template <int D>
-void World<D>::PairTests::test_pair(const IdPair& pair) {
-    const Item &a = items_[pair.a.index - 1], &b = items_[pair.b.index - 1];
-    if (!a.pending && !b.pending && !world_.has_new_answer(pair)) return repeat_last(pair);
+void World<D>::PairTests::test_pair(const detail::SlotPair& near) {
+    const Item &a = items_[near.a], &b = items_[near.b];
+    const IdPair pair{world_.id_of(near.a), world_.id_of(near.b)};
+    if (!a.pending && !b.pending && !world_.has_new_answer(near)) return repeat_last(pair);
     ++results_.tested;
     // A pair may be near by its swept boxes alone; it touches only if the present boxes overlap.
-    const bool touch =
-        (!world_.widened_ || overlaps(world_.box(pair.a.index - 1), world_.box(pair.b.index - 1))) && test_touch(pair);
+    const bool touch = (!world_.widened_ || overlaps(world_.box(near.a), world_.box(near.b))) && test_touch(pair);
     if (a.continuous || b.continuous) test_motion(pair, touch);
 }
 
@@ -52,7 +55,8 @@ template <int D>
 void World<D>::PairTests::test_motion(const IdPair& pair, bool touch) {
     const std::uint32_t a = pair.a.index - 1, b = pair.b.index - 1;
     if (!world_.has_swept_box(a) && !world_.has_swept_box(b)) return;
-    if (std::binary_search(world_.last_touching_.begin(), world_.last_touching_.end(), pair)) return;
+    const std::vector<IdPair>& last = world_.results_.touching;
+    if (std::binary_search(last.begin(), last.end(), pair)) return;
     const std::optional<Hit<D>> hit = world_.sweep_pair(a, b);
     if (!hit) return;
     results_.impacts.push_back({pair.a, pair.b, *hit});
@@ -62,20 +66,16 @@ void World<D>::PairTests::test_motion(const IdPair& pair, bool touch) {
 /// Repeats the last result of a pair of which neither item changed. Its contact is found anew if a neighbour changed.
 template <int D>
 void World<D>::PairTests::repeat_last(const IdPair& pair) {
-    if (!std::binary_search(world_.last_touching_.begin(), world_.last_touching_.end(), pair)) return;
-    results_.touching.push_back(pair);
-    const std::span<const WorldContact<D>> all = world_.last_found_.contacts, found = detail::entries_of(all, pair);
-    if (found.empty()) return;
-    if (world_.neighbours_changed(pair)) {
+    const detail::PairResults<D>& last = world_.results_;
+    const auto found = std::lower_bound(last.touching.begin(), last.touching.end(), pair);
+    if (found == last.touching.end() || *found != pair) return;
+    const auto i = static_cast<std::size_t>(found - last.touching.begin());
+    const auto [begin, end] = last.found_of(i);
+    if (begin != end && world_.neighbours_changed(pair))
         find_contact(pair);
-        return;
-    }
-    for (const WorldContact<D>& contact : found) {
-        const detail::FoundState& last = world_.last_found_.states[static_cast<std::size_t>(&contact - all.data())];
-        results_.found.add(pair, last) = contact;
-        if (last.own_area != detail::FoundState::no_own_area)
-            results_.found.set_own_area(results_.found.size() - 1, world_.last_found_.own_areas[last.own_area]);
-    }
+    else
+        results_.add_found(last, i);
+    results_.add_touching(pair);
 }
 
 template <int D>
@@ -88,11 +88,12 @@ template <int D>
 bool World<D>::PairTests::test_shapes(const IdPair& pair) {
     const Item &a = items_[pair.a.index - 1], &b = items_[pair.b.index - 1];
     if (a.sensor || b.sensor) {
-        if (!overlaps(first_placed(pair.a.index - 1), placed_view(pair.b.index - 1))) return false;
+        const auto [placed_a, placed_b] = placed_views(pair);
+        if (!overlaps(placed_a, placed_b)) return false;
     } else if (!find_contact(pair)) {
         return false;
     }
-    results_.touching.push_back(pair);
+    results_.add_touching(pair);
     return true;
 }
 

@@ -15,11 +15,11 @@ public:
     PairTests(World& world, detail::PairTestMemory<D>& memory, detail::PairResults<D>& results, bool is_first_part)
         : world_(world), memory_(memory), results_(results), is_first_part_(is_first_part) {}
 
-    /// Tests near_[begin] to near_[end - 1].
+    /// Tests near_[begin] to near_[end - 1], a part of the results.
     void run(std::size_t begin, std::size_t end);
 
 private:
-    void test_pair(const IdPair& pair);
+    void test_pair(const detail::SlotPair& near);
     bool test_touch(const IdPair& pair);
     void test_motion(const IdPair& pair, bool touch);
     void repeat_last(const IdPair& pair);
@@ -43,12 +43,12 @@ private:
     const View<D>& placed_view(std::uint32_t slot) {
         return memory_.views.of(slot, [&] { return world_.placed(items_[slot]); });
     }
-    const View<D>& first_placed(std::uint32_t slot) {
-        if (memory_.first_slot != slot) {
-            memory_.first_slot = slot;
-            std::construct_at(&memory_.first, world_.placed(items_[slot]));
-        }
-        return memory_.first;
+    /// Of two items at the same time.
+    std::pair<const View<D>&, const View<D>&> placed_views(const IdPair& pair) {
+        const std::uint32_t a = pair.a.index - 1, b = pair.b.index - 1;
+        const View<D>* first = &placed_view(a);
+        if (memory_.views.share_place(a, b)) first = std::construct_at(&memory_.first, *first);
+        return {*first, placed_view(b)};
     }
 
     World& world_;

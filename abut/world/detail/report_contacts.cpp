@@ -22,9 +22,9 @@ template <int D>
 void World<D>::find_changed_neighbours() {
     std::vector<char>& changed = memory_->neighbour_changed;
     changed.assign(items_.size(), false);
-    const auto mark = [&](const std::vector<IdPair>& pairs, const std::vector<IdPair>& others) {
-        for (const IdPair& pair : pairs) {
-            const std::uint32_t a = pair.a.index - 1, b = pair.b.index - 1;
+    const auto mark = [&](const std::vector<SlotPair>& pairs, const std::vector<SlotPair>& others) {
+        for (const SlotPair& pair : pairs) {
+            const auto& [a, b] = pair;
             // A pair filter may change its answer for items that did not change.
             const bool is_new = filters_pairs_ && !std::binary_search(others.begin(), others.end(), pair);
             if (items_[a].pending || is_new) changed[b] = true;

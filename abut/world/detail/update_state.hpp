@@ -15,6 +15,12 @@
 
 namespace abut::detail {
 
+/// A touching pair: its place among those that a part of the tests found.
+struct TouchOfPart {
+    std::uint64_t key;  ///< the order of the pairs
+    std::uint32_t part, place;
+};
+
 /// A contact of items without parts that isn't filtered yet, by its index among those found, and for which of its items
 /// it needs that.
 template <int D>
@@ -27,23 +33,18 @@ struct UnfilteredContact {
 /// What one thread remembers between tests of pairs.
 template <int D>
 struct PairTestMemory {
-    static constexpr std::uint32_t none = 0xFFFFFFFF;
     /// Contacts are filtered together, so that the code of either step stays in the instruction cache.
     static constexpr std::size_t max_unfiltered = 32;
 
-    SlotCache<View<D>> views{1024};  ///< fits in the second cache of common processors
-    /// Of the first item of the last pair. Pairs are sorted, so consecutive pairs share it.
-    std::uint32_t first_slot = none;
-    View<D> first;
+    SlotCache<View<D>, 1024> views;  ///< fits in the second cache of common processors
+    View<D> first;                   ///< of the first item of a pair whose views have the same place
     std::array<UnfilteredContact<D>, max_unfiltered> unfiltered;
     std::size_t unfiltered_count = 0;
     /// The points nearest to the centres of items, for contacts of which an item is A or B.
-    std::array<SlotCache<NearestToCenter<D>>, 2> nearest{SlotCache<NearestToCenter<D>>{256},
-                                                         SlotCache<NearestToCenter<D>>{256}};
+    std::array<SlotCache<NearestToCenter<D>, 256>, 2> nearest;
 
     void clear() {
         views.clear();
-        first_slot = none;
         for (auto& of_side : nearest) of_side.clear();
     }
     /// Where the parts of the next contact go.
@@ -60,7 +61,8 @@ struct UpdateState {
     Neighbourhoods<D> neighbours;
     std::vector<PairTestMemory<D>> memories;  ///< one for each part that may run at the same time
     std::vector<std::uint32_t> free_memories;
-    std::vector<PairResults<D>> later_parts;  ///< all but the first
+    std::vector<PairResults<D>> parts;
+    std::vector<TouchOfPart> touches, sorted_touches;
     /// The contacts of each item, in an update with substitute normals: contact i of those found has the places 2 i
     /// (for its A) and 2 i + 1 (for its B) in found_before, which refer to the item's place before.
     std::vector<std::uint32_t> last_found;  ///< by slot
