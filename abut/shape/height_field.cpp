@@ -33,9 +33,6 @@ std::optional<Problem> not_finite(std::span<const float> heights) {
     return Problem{ProblemCode::not_finite, "height " + std::to_string(i) + " is not finite", i};
 }
 
-/// A box that overlaps at most this many cells visits them directly, without the hierarchy.
-constexpr std::uint64_t max_direct_cells = 64;
-
 }  // namespace
 
 struct HeightField::Data {
@@ -60,16 +57,16 @@ struct HeightField::Data {
         const float a = height(x, y), b = height(x + 1, y), c = height(x + 1, y + 1), d = height(x, y + 1);
         return {std::min(std::min(a, b), std::min(c, d)), std::max(std::max(a, b), std::max(c, d))};
     }
+    HeightRange of_cell(const glm::uvec2& place) const { return of_cell(place.x, place.y); }
     void update_cells(const glm::uvec2& first, const glm::uvec2& end) {
-        blocks.update(first, end, [this](std::uint32_t x, std::uint32_t y) { return of_cell(x, y); });
+        blocks.update(first, end, [this](const glm::uvec2& place) { return of_cell(place); });
     }
-    Aabb3 box_of_block(std::uint32_t level, std::uint32_t x, std::uint32_t y) const {
-        const HeightRange z = level == 0 ? of_cell(x, y) : blocks.at(level, x, y);
+    Aabb3 box_of_block(std::uint32_t level, const glm::uvec2& place) const {
+        const HeightRange z = level == 0 ? of_cell(place) : blocks.at(level, place);
         if (!(z.min <= z.max)) return Aabb3::empty();
-        const auto place = [](std::uint32_t index, float width) { return static_cast<float>(index) * width; };
-        return {
-            {place(blocks.first_column(level, x), cell.x), place(blocks.first_row(level, y), cell.y), z.min},
-            {place(blocks.first_column(level, x + 1), cell.x), place(blocks.first_row(level, y + 1), cell.y), z.max}};
+        const Vec2 low = Vec2(blocks.first_cell(level, place)) * cell,
+                   high = Vec2(blocks.first_cell(level, place + 1u)) * cell;
+        return {{low, z.min}, {high, z.max}};
     }
     Triangle3 triangle(std::uint32_t x, std::uint32_t y, std::uint32_t which) const {
         return which == 0 ? Triangle3{corner(x, y), corner(x + 1, y), corner(x + 1, y + 1)}
@@ -79,15 +76,15 @@ struct HeightField::Data {
     /// Calls visit(triangle, index) for the triangles whose boxes are within reach; it returns the new reach.
     template <class Reach, class Visit>
     void each_within(Reach reach, Visit&& visit) const {
-        const auto visit_cell = [&](std::uint32_t x, std::uint32_t y) {
+        const auto visit_cell = [&](const glm::uvec2& place) {
             for (std::uint32_t which = 0; which < 2 && !reach.is_exhausted(); ++which) {
-                const Triangle3 t = triangle(x, y, which);
+                const Triangle3 t = triangle(place.x, place.y, which);
                 double measure;
-                if (reach.measure(box_of(t), measure)) reach.shrink(visit(t, 2 * cell_at(x, y) + which));
+                if (reach.measure(box_of(t), measure)) reach.shrink(visit(t, 2 * cell_at(place.x, place.y) + which));
             }
         };
         blocks.traverse(
-            reach, [this](std::uint32_t level, std::uint32_t x, std::uint32_t y) { return box_of_block(level, x, y); },
+            reach, [this](std::uint32_t level, const glm::uvec2& place) { return box_of_block(level, place); },
             visit_cell);
     }
 };
@@ -127,8 +124,8 @@ Result<HeightField> HeightField::build(std::span<const float> heights, std::uint
                            i};
         data->holes[options.holes[i]] = true;
     }
-    data->blocks.build(data->cell_columns(), data->cell_rows(),
-                       [&](std::uint32_t x, std::uint32_t y) { return data->of_cell(x, y); });
+    data->blocks.build({data->cell_columns(), data->cell_rows()},
+                       [&](const glm::uvec2& place) { return data->of_cell(place); });
     return HeightField(std::move(data));
 }
 
@@ -246,22 +243,22 @@ void each_part(const HeightField& field, const Aabb3& box,
     const HeightField::Data& data = *field.data_;
     const Aabb3 query = usable(box);
     if (!overlaps(query, bounds(field))) return;
-    const CellRange columns(query.min.x, query.max.x, data.cell.x, data.cell_columns());
-    const CellRange rows(query.min.y, query.max.y, data.cell.y, data.cell_rows());
-    if (std::uint64_t{columns.size()} * rows.size() > max_direct_cells) {
+    const glm::uvec2 count(data.cell_columns(), data.cell_rows());
+    const CellRange<2> cells({Vec2(query.min), Vec2(query.max)}, data.cell, count);
+    if (cells.size() > static_cast<double>(max_direct_cells)) {
         constexpr float on = std::numeric_limits<float>::infinity();
         data.each_within(BoxReach<3>(query, 0),
                          [&](const Triangle3& t, std::uint32_t index) { return visit(t, index) ? on : -on; });
         return;
     }
-    for (std::uint32_t y = rows.begin; y < rows.end; ++y)
-        for (std::uint32_t x = columns.begin; x < columns.end; ++x) {
-            if (!overlaps(query, data.box_of_block(0, x, y))) continue;
-            for (std::uint32_t which = 0; which < 2; ++which) {
-                const Triangle3 t = data.triangle(x, y, which);
-                if (overlaps(query, box_of(t)) && !visit(t, 2 * data.cell_at(x, y) + which)) return;
-            }
+    each_place<2>(cells.begin, cells.end, [&](const glm::uvec2& place) {
+        if (!overlaps(query, data.box_of_block(0, place))) return true;
+        for (std::uint32_t which = 0; which < 2; ++which) {
+            const Triangle3 t = data.triangle(place.x, place.y, which);
+            if (overlaps(query, box_of(t)) && !visit(t, 2 * data.cell_at(place.x, place.y) + which)) return false;
         }
+        return true;
+    });
 }
 
 void each_part_along(const HeightField& field, const MovingBox<3>& box,

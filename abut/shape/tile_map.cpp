@@ -1,7 +1,7 @@
 #include <abut/math/assert.hpp>
 #include <abut/math/simd/library_entry.hpp>
 #include <abut/shape/box.hpp>
-#include <abut/shape/detail/grid_hierarchy.hpp>
+#include <abut/shape/detail/cell_grid.hpp>
 #include <abut/shape/segment.hpp>
 #include <abut/shape/tile_map.hpp>
 #include <abut/shape/triangle.hpp>
@@ -13,17 +13,6 @@ namespace abut {
 using namespace detail;
 
 namespace {
-
-/// The range of columns and rows in a block that hold non-empty tiles.
-struct OccupiedRange {
-    std::uint32_t first_column = 0xffffffffu, first_row = 0xffffffffu, end_column = 0, end_row = 0;
-
-    bool any() const { return first_column < end_column; }
-};
-OccupiedRange merged(const OccupiedRange& a, const OccupiedRange& b) {
-    return {std::min(a.first_column, b.first_column), std::min(a.first_row, b.first_row),
-            std::max(a.end_column, b.end_column), std::max(a.end_row, b.end_row)};
-}
 
 Convex<2> one_way_edge(const Vec2& from, const Vec2& to) {
     Convex<2> result = convex(Segment2{from, to});
@@ -72,33 +61,14 @@ Convex<2> tile_shape(Tile tile, const Aabb2& box) {
 
 struct TileMap::Data {
     std::vector<Tile> tiles;
-    std::uint32_t columns = 0, rows = 0;
-    Vec2 cell{};
-    GridHierarchy<OccupiedRange> blocks;
+    CellGrid<2> grid;
 
-    Aabb2 box_of(std::uint32_t first_column, std::uint32_t first_row, std::uint32_t end_column,
-                 std::uint32_t end_row) const {
-        return {{static_cast<float>(first_column) * cell.x, static_cast<float>(first_row) * cell.y},
-                {static_cast<float>(end_column) * cell.x, static_cast<float>(end_row) * cell.y}};
-    }
-    Aabb2 box_of(const OccupiedRange& filled) const {
-        return filled.any() ? box_of(filled.first_column, filled.first_row, filled.end_column, filled.end_row)
-                            : Aabb2::empty();
-    }
-    OccupiedRange of_tile(std::uint32_t x, std::uint32_t y) const {
-        return tiles[x + y * columns] == Tile::empty ? OccupiedRange() : OccupiedRange{x, y, x + 1, y + 1};
-    }
-    Aabb2 box_of_tile(std::uint32_t x, std::uint32_t y) const { return box_of(x, y, x + 1, y + 1); }
+    bool operator()(std::uint32_t index) const { return tiles[index] != Tile::empty; }
 
-    /// Calls visit(part, index) for the tiles within reach; it returns the new reach.
-    template <class Reach, class Visit>
-    void each_within(Reach reach, Visit&& visit) const {
-        const auto box_of_block = [this](std::uint32_t level, std::uint32_t x, std::uint32_t y) {
-            return box_of(level == 0 ? of_tile(x, y) : blocks.at(level, x, y));
-        };
-        blocks.traverse(reach, box_of_block, [&](std::uint32_t x, std::uint32_t y) {
-            const std::uint32_t index = x + y * columns;
-            reach.shrink(visit(tile_shape(tiles[index], box_of_tile(x, y)), index));
+    template <class Reach>
+    void each_within(const Reach& reach, PartReachVisitor<2> visit) const {
+        grid.each_within(reach, *this, [&](const Aabb2& box, std::uint32_t index) {
+            return visit(tile_shape(tiles[index], box), index);
         });
     }
 };
@@ -121,12 +91,11 @@ Result<TileMap> TileMap::build(std::span<const Tile> tiles, std::uint32_t column
                            i};
     auto data = std::make_shared<Data>();
     data->tiles.assign(tiles.begin(), tiles.end());
-    data->columns = columns;
-    data->rows = static_cast<std::uint32_t>(tiles.size() / columns);
-    data->cell = cell;
-    if (!(cell.x > 0 && cell.y > 0 && is_finite(data->box_of(0, 0, columns, data->rows).max)))
+    data->grid.count = {columns, static_cast<std::uint32_t>(tiles.size() / columns)};
+    data->grid.cell = cell;
+    if (!(cell.x > 0 && cell.y > 0 && is_finite(data->grid.box_of(glm::uvec2(0u), data->grid.count).max)))
         return Problem{ProblemCode::bad_argument, "the cells' sizes must be above zero, and their places finite", 0};
-    data->blocks.build(columns, data->rows, [&](std::uint32_t x, std::uint32_t y) { return data->of_tile(x, y); });
+    data->grid.build(*data);
     return TileMap(std::move(data));
 }
 
@@ -141,22 +110,21 @@ void TileMap::set(std::uint32_t index, Tile tile) {
     if (index >= size() || tile > Tile::one_way_high_y) return;
     if (data_.use_count() > 1) data_ = std::make_shared<Data>(*data_);
     data_->tiles[index] = tile;
-    const glm::uvec2 place(index % columns(), index / columns());
-    data_->blocks.update(place, place + 1u, [&](std::uint32_t x, std::uint32_t y) { return data_->of_tile(x, y); });
+    data_->grid.update(index, *data_);
 }
 
 std::span<const Tile> TileMap::tiles() const {
     return data_->tiles;
 }
 std::uint32_t TileMap::columns() const {
-    return data_->columns;
+    return data_->grid.count.x;
 }
 std::uint32_t TileMap::rows() const {
-    return data_->rows;
+    return data_->grid.count.y;
 }
 Vec2 TileMap::cell() const {
     detail::enter_library();
-    return data_->cell;
+    return data_->grid.cell;
 }
 std::uint32_t TileMap::size() const {
     return static_cast<std::uint32_t>(data_->tiles.size());
@@ -165,7 +133,7 @@ std::uint32_t TileMap::size() const {
 Aabb2 TileMap::box(std::uint32_t index) const {
     detail::enter_library();
     ABUT_ASSERT(index < size());
-    return data_->box_of_tile(index % data_->columns, index / data_->columns);
+    return data_->grid.box_of(data_->grid.place_of(index));
 }
 
 Convex<2> TileMap::part(std::uint32_t index) const {
@@ -175,35 +143,20 @@ Convex<2> TileMap::part(std::uint32_t index) const {
 
 std::uint32_t TileMap::neighbour(std::uint32_t tile, std::uint32_t side) const {
     ABUT_ASSERT(tile < size() && side < 4);
-    const std::uint32_t x = tile % data_->columns, y = tile / data_->columns;
-    const bool low = side % 2 == 1, along_x = side < 2;
-    const std::uint32_t at = along_x ? x : y, count = along_x ? data_->columns : data_->rows;
-    if (low ? at == 0 : at + 1 == count) return no_neighbour;
-    const std::uint32_t step = along_x ? 1 : data_->columns, beyond = low ? tile - step : tile + step;
-    return data_->tiles[beyond] == Tile::empty ? no_neighbour : beyond;
+    return data_->grid.neighbour(tile, side, *data_);
 }
 
 Aabb2 bounds(const TileMap& map) {
     detail::enter_library();
-    return map.data_->box_of(map.data_->blocks.all());
+    return map.data_->grid.bounds();
 }
 
 void each_part(const TileMap& map, const Aabb2& box, PartVisitor<2> visit) {
     detail::enter_library();
     const TileMap::Data& data = *map.data_;
-    const Aabb2 query = usable(box);
-    if (is_empty(query)) return;
-    const OccupiedRange& all = data.blocks.all();
-    const CellRange columns(query.min.x, query.max.x, data.cell.x, all.end_column);
-    const CellRange rows(query.min.y, query.max.y, data.cell.y, all.end_row);
-    for (std::uint32_t y = std::max(rows.begin, all.first_row); y < rows.end; ++y)
-        for (std::uint32_t x = std::max(columns.begin, all.first_column); x < columns.end; ++x) {
-            const std::uint32_t index = x + y * data.columns;
-            const Tile tile = data.tiles[index];
-            if (tile == Tile::empty) continue;
-            const Aabb2 of_tile = data.box_of_tile(x, y);
-            if (overlaps(query, of_tile) && !visit(tile_shape(tile, of_tile), index)) return;
-        }
+    data.grid.each_overlapping(box, data, [&](const Aabb2& of_tile, std::uint32_t index) {
+        return visit(tile_shape(data.tiles[index], of_tile), index);
+    });
 }
 
 void each_part_along(const TileMap& map, const MovingBox<2>& box, PartReachVisitor<2> visit) {
