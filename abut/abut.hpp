@@ -64,6 +64,7 @@
 #include <abut/shape/solid_mesh.hpp>
 #include <abut/shape/tile_map.hpp>
 #include <abut/shape/triangle.hpp>
+#include <abut/shape/voxel_map.hpp>
 #include <abut/shape/weld.hpp>
 #include <abut/walk/file.hpp>
 #include <abut/walk/survey.hpp>

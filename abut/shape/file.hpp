@@ -11,6 +11,7 @@
 #include <abut/shape/polyhedron.hpp>
 #include <abut/shape/solid_bsp.hpp>
 #include <abut/shape/tile_map.hpp>
+#include <abut/shape/voxel_map.hpp>
 
 #include <cstddef>
 #include <span>
@@ -42,6 +43,10 @@ Result<HeightField> load_height_field(std::span<const std::byte> bytes);
 
 std::vector<std::byte> save(const TileMap& map);
 Result<TileMap> load_tile_map(std::span<const std::byte> bytes);
+
+/// One bit a voxel.
+std::vector<std::byte> save(const VoxelMap& map);
+Result<VoxelMap> load_voxel_map(std::span<const std::byte> bytes);
 
 std::vector<std::byte> save(const Chain& chain);
 Result<Chain> load_chain(std::span<const std::byte> bytes);

@@ -183,6 +183,9 @@ TEST(LevelContacts, OfSolidsOfThePlaneAgreeWithTryingAllParts) {
 TEST(LevelContacts, OfHeightFieldsAgreeWithTryingAllTriangles) {
     check_levels<3>(0, oracle::case_count(60));
 }
+TEST(LevelContacts, OfVoxelMapsAgreeWithTryingAllVoxels) {
+    check_levels<3>(4, oracle::case_count(60));
+}
 TEST(LevelContacts, OfMeshesAgreeWithTryingAllTriangles) {
     check_levels<3>(1, oracle::case_count(60));
 }

@@ -17,6 +17,7 @@
 #include <abut/shape/segment.hpp>
 #include <abut/shape/solid_bsp.hpp>
 #include <abut/shape/tile_map.hpp>
+#include <abut/shape/voxel_map.hpp>
 
 #include <functional>
 #include <string>
@@ -156,6 +157,12 @@ inline Level<3> level_of(const HeightField& field) {
         if (!field.is_hole(i / 2)) result.parts.push_back({convex(field.triangle(i)), i});
     return result;
 }
+inline Level<3> level_of(const VoxelMap& map) {
+    Level<3> result{map, {}};
+    for (std::uint32_t i = 0; i < map.size(); ++i)
+        if (map.at(i)) result.parts.push_back({convex(map.box(i)), i});
+    return result;
+}
 inline Level<3> level_of(const Mesh& mesh) {
     Level<3> result{mesh, {}};
     for (std::uint32_t i = 0; i < mesh.triangles().size(); ++i) result.parts.push_back({convex(mesh.triangle(i)), i});
@@ -198,6 +205,16 @@ inline Level<2> random_tile_map(oracle::Random& random) {
     for (std::uint32_t i = 0; i < columns * rows; ++i)
         tiles.push_back(random.chance(filled) ? static_cast<Tile>(1 + random.below(13)) : Tile::empty);
     return level_of(*TileMap::build(tiles, columns, Vec2(random.uniform_float(0.2, 1), random.uniform_float(0.2, 1))));
+}
+
+inline Level<3> random_voxel_map(oracle::Random& random) {
+    const glm::uvec3 count(1 + random.below(6), 1 + random.below(6), 1 + random.below(6));
+    const Vec3 cell(random.uniform_float(0.2, 1), random.uniform_float(0.2, 1), random.uniform_float(0.2, 1));
+    const double filled = random.uniform(0.1, 0.9);
+    std::vector<std::uint64_t> bits((count.x * count.y * count.z + 63) / 64);
+    for (std::uint64_t& word : bits)
+        for (std::uint32_t i = 0; i < 64; ++i) word |= std::uint64_t{random.chance(filled)} << i;
+    return level_of(*VoxelMap::build(bits, count, cell));
 }
 
 inline Level<3> random_height_field(oracle::Random& random) {
@@ -334,7 +351,7 @@ Level<D> random_compound(oracle::Random& random) {
     return {*Compound<D>::build(children), parts};
 }
 
-/// A level of the dimension: kinds 0 and 1 are surfaces, 2 is a compound, 3 is a SolidBsp.
+/// A level of the dimension: kinds 0 and 1 are surfaces or tiles, 2 is a compound, 3 is a SolidBsp, 4 is a voxel map.
 template <int D>
 Level<D> random_level(oracle::Random& random, std::uint32_t kind) {
     if (kind == 2) return random_compound<D>(random);
@@ -344,6 +361,8 @@ Level<D> random_level(oracle::Random& random, std::uint32_t kind) {
     }
     if constexpr (D == 2)
         return kind == 0 ? random_chain(random) : random_tile_map(random);
+    else if (kind == 4)
+        return random_voxel_map(random);
     else
         return kind == 0 ? random_height_field(random) : random_mesh(random);
 }

@@ -245,6 +245,9 @@ TEST(LevelQueries, OfSolidsOfThePlaneAgreeWithTryingAllParts) {
 TEST(LevelQueries, OfHeightFieldsAgreeWithTryingAllTriangles) {
     check_levels<3>(0, oracle::case_count(60));
 }
+TEST(LevelQueries, OfVoxelMapsAgreeWithTryingAllVoxels) {
+    check_levels<3>(4, oracle::case_count(60));
+}
 TEST(LevelQueries, OfMeshesAgreeWithTryingAllTriangles) {
     check_levels<3>(1, oracle::case_count(60));
 }

@@ -24,6 +24,7 @@
 #include <abut/shape/polyhedron.hpp>
 #include <abut/shape/solid_mesh.hpp>
 #include <abut/shape/tile_map.hpp>
+#include <abut/shape/voxel_map.hpp>
 
 #include <atomic>
 #include <cstdlib>
@@ -168,13 +169,16 @@ TEST(Allocation, OfLevelQueriesIsNone) {
     const Compound2 both = *Compound2::build({chain, at(map, Pose2{{1, 1}}), Circle{{0, 0}, 1}});
     const HeightField field = *HeightField::build(heights, 20, 0.2f);
     const Compound3 ground = *Compound3::build({field, at(field, Pose3{{0, 0, 1}}), Sphere{{0, 0, 0}, 1}});
+    std::vector<std::uint64_t> bits(8 * 8 * 8 / 64);
+    for (std::uint64_t& word : bits) word = random.bits();
+    const VoxelMap voxels = *VoxelMap::build(bits, {8, 8, 8}, 0.3f);
     const Ray2 ray = Ray2::between({-3, -2}, {4, 3});
     for (const View<2>& level : {View<2>(view(chain)), View<2>(view(map)), View<2>(view(both))})
         for (const View<2>& other : {View<2>(view(Box2{{2, 2}, {1, 1}})), View<2>(view(HalfSpace2{{0, 1}, 0.5f}))})
             EXPECT_EQ(allocations_of_all_queries<2>(level, other, ray), 0);
     EXPECT_EQ(allocations_of_all_queries<2>(view(chain), view(map), ray), 0);
     const Ray3 in_space = Ray3::between({-3, -2, -1}, {5, 5, 1});
-    for (const View<3>& level : {View<3>(view(field)), View<3>(view(ground))})
+    for (const View<3>& level : {View<3>(view(field)), View<3>(view(voxels)), View<3>(view(ground))})
         EXPECT_EQ(allocations_of_all_queries<3>(level, view(Box3{{2, 2, 0}, {1, 1, 1}}), in_space), 0);
 }
 

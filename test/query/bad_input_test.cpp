@@ -21,6 +21,7 @@
 #include <abut/shape/segment.hpp>
 #include <abut/shape/tile_map.hpp>
 #include <abut/shape/triangle.hpp>
+#include <abut/shape/voxel_map.hpp>
 
 namespace {
 int assertions_expected = 0;
@@ -138,7 +139,9 @@ TEST(BadInput, ToLevelsIsHarmless) {
     const Chain chain = *Chain::build({{-1, -1}, {1, -1}, {0, 1}}, true);
     const TileMap map = *TileMap::build(std::vector<Tile>(9, Tile::full), 3, 1.0f);
     const HeightField field = *HeightField::build(std::vector<float>(9, 0.0f), 3, 1.0f);
+    const VoxelMap voxels = *VoxelMap::build(std::vector<std::uint64_t>{~std::uint64_t{0}}, {3, 3, 3}, 1.0f);
     expect_harmless_to("chain", chain);
+    expect_harmless_to("voxel map", voxels);
     expect_harmless_to("tile map", map);
     expect_harmless_to("height field", field);
     expect_harmless_to("compound", *Compound2::build({chain, map, Circle{{0, 0}, 1}}));
@@ -149,6 +152,9 @@ TEST(BadInput, ToLevelsIsHarmless) {
     const auto count = [&seen](const Triangle3&, std::uint32_t) { return ++seen > 0; };
     each_part(field, everywhere, count);
     EXPECT_EQ(seen, 8);
+    seen = 0;
+    each_part(voxels, everywhere, [&seen](const detail::Convex<3>&, std::uint32_t) { return ++seen > 0; });
+    EXPECT_EQ(seen, 27);
     EXPECT_TRUE(raycast(Ray3{{0.5f, 0.7f, 9}, {0, 0, -1}, infinity}, field));
     EXPECT_TRUE(raycast(Ray2{{0.5f, 9}, {0, -1}, infinity}, map));
 }

@@ -11,6 +11,7 @@
 #include <abut/shape/mesh.hpp>
 #include <abut/shape/placed.hpp>
 #include <abut/shape/tile_map.hpp>
+#include <abut/shape/voxel_map.hpp>
 
 #include <string>
 
@@ -34,7 +35,7 @@ inline glm::dquat tilted(double angle, glm::dquat) {
 }
 
 inline constexpr std::array rest_floors_2{"box", "boxes", "tiles", "chain", "compound", "solid"};
-inline constexpr std::array rest_floors_3{"box", "boxes", "mesh", "height field", "compound", "solid"};
+inline constexpr std::array rest_floors_3{"box", "boxes", "mesh", "height field", "voxels", "compound", "solid"};
 
 /// The tiles of a floor.
 template <int D>
@@ -101,6 +102,10 @@ inline void add_floor(SmallPhysics<3>& physics, const std::string& kind, const P
         // Heights are along z there.
         const Pose3 up{{-rest_side, 0, rest_side}, {std::sqrt(0.5f), -std::sqrt(0.5f), 0, 0}};
         physics.add_fixed(at(field, up), pose);
+    } else if (kind == "voxels") {
+        const std::vector<std::uint64_t> bits(2 * rest_side * 2 * rest_side * 2 / 64, ~std::uint64_t{0});
+        const VoxelMap map = *VoxelMap::build(bits, {2 * rest_side, 2, 2 * rest_side}, 1.0f);
+        physics.add_fixed(at(map, Pose3{{-rest_side, -2, -rest_side}}), pose);
     } else {
         add_common_floor(physics, kind, pose);
     }

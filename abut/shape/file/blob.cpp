@@ -30,6 +30,7 @@ constexpr std::array kinds{
     KindOfFile{SavedKind::compound_3d, 1, "a 3D compound"},
     KindOfFile{SavedKind::solid_bsp_2d, 1, "a 2D solid level"},
     KindOfFile{SavedKind::solid_bsp_3d, 1, "a 3D solid level"},
+    KindOfFile{SavedKind::voxel_map, 1, "a voxel map"},
 };
 
 const KindOfFile* kind_of(std::uint32_t number) {

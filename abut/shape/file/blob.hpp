@@ -28,6 +28,7 @@ enum class SavedKind : std::uint32_t {
     compound_3d,
     solid_bsp_2d,
     solid_bsp_3d,
+    voxel_map,
 };
 
 /// With its article, as in "a mesh".

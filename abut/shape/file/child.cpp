@@ -57,6 +57,7 @@ const void* data_of(const Composite<D>& child) {
         if (child.kind == CompositeKind::mesh) return &mesh_surface(*static_cast<const Mesh*>(child.object));
         if (child.kind == CompositeKind::height_field)
             return static_cast<const HeightField*>(child.object)->heights().data();
+        if (child.kind == CompositeKind::voxel_map) return static_cast<const VoxelMap*>(child.object)->bits().data();
     } else {
         if (child.kind == CompositeKind::chain) return static_cast<const Chain*>(child.object)->points().data();
         if (child.kind == CompositeKind::tile_map) return static_cast<const TileMap*>(child.object)->tiles().data();
@@ -71,6 +72,7 @@ std::vector<std::byte> saved_composite(const Composite<D>& child) {
     if constexpr (D == 3) {
         if (child.kind == CompositeKind::mesh) return save(*static_cast<const Mesh*>(child.object));
         if (child.kind == CompositeKind::height_field) return save(*static_cast<const HeightField*>(child.object));
+        if (child.kind == CompositeKind::voxel_map) return save(*static_cast<const VoxelMap*>(child.object));
     } else {
         if (child.kind == CompositeKind::chain) return save(*static_cast<const Chain*>(child.object));
         if (child.kind == CompositeKind::tile_map) return save(*static_cast<const TileMap*>(child.object));
@@ -275,6 +277,9 @@ std::optional<Problem> ChildReader<D>::add_file(std::span<const std::byte> file,
             break;
         case SavedKind::height_field:
             if constexpr (D == 3) return add_loaded(load_height_field(file), shapes_);
+            break;
+        case SavedKind::voxel_map:
+            if constexpr (D == 3) return add_loaded(load_voxel_map(file), shapes_);
             break;
         case SavedKind::compound_2d:
         case SavedKind::compound_3d:

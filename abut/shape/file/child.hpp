@@ -12,6 +12,7 @@
 #include <abut/shape/polyhedron.hpp>
 #include <abut/shape/solid_bsp.hpp>
 #include <abut/shape/tile_map.hpp>
+#include <abut/shape/voxel_map.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -54,7 +55,7 @@ private:
 
 template <int D>
 using SavedShape = std::conditional_t<D == 2, std::variant<Polygon, Chain, TileMap, Compound<2>, SolidBsp<2>>,
-                                      std::variant<Polyhedron, Mesh, HeightField, Compound<3>, SolidBsp<3>>>;
+                                      std::variant<Polyhedron, Mesh, HeightField, VoxelMap, Compound<3>, SolidBsp<3>>>;
 
 /// Reads what a ChildWriter has written.
 template <int D>

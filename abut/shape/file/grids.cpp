@@ -1,7 +1,8 @@
 // The data of a height field: the columns of heights, the size of a cell, the numbers of heights and of bytes with
 // holes, the heights, and one bit a cell that is set for a hole, if there are any. Of a tile map: the columns, the size
-// of a tile, their number, and the tiles. The blocks over their cells are computed, which takes no longer than to check
-// them.
+// of a tile, their number, and the tiles. Of a voxel map: the numbers of voxels, the size of a voxel, the number of
+// words, and the words with one bit a voxel. The blocks over their cells are computed, which takes no longer than to
+// check them.
 
 #include <abut/math/simd/library_entry.hpp>
 #include <abut/shape/file.hpp>
@@ -91,6 +92,34 @@ Result<TileMap> load_tile_map(std::span<const std::byte> bytes) {
     };
     if (std::optional<Problem> wrong = read_shape(bytes, SavedKind::tile_map, read)) return *std::move(wrong);
     return TileMap::build(tiles, columns, cell);
+}
+
+std::vector<std::byte> save(const VoxelMap& map) {
+    BlobWriter writer = begin_shape(SavedKind::voxel_map, 64 + map.bits().size_bytes());
+    for (int axis = 0; axis < 3; ++axis) writer.number(map.count()[axis]);
+    for (int axis = 0; axis < 3; ++axis) writer.number(map.cell()[axis]);
+    writer.number(static_cast<std::uint64_t>(map.bits().size()));
+    writer.array(map.bits());
+    return end_shape(std::move(writer));
+}
+
+Result<VoxelMap> load_voxel_map(std::span<const std::byte> bytes) {
+    enter_library();
+    glm::uvec3 count{};
+    Vec3 cell{};
+    std::uint64_t words = 0;
+    std::vector<std::uint64_t> bits;
+    const auto read = [&](BlobReader& reader) {
+        bool whole = true;
+        for (int axis = 0; axis < 3; ++axis) whole = whole && reader.number(count[axis]);
+        for (int axis = 0; axis < 3; ++axis) whole = whole && reader.number(cell[axis]);
+        return whole && reader.number(words) && reader.array(bits, words);
+    };
+    if (std::optional<Problem> wrong = read_shape(bytes, SavedKind::voxel_map, read)) return *std::move(wrong);
+    Result<VoxelMap> built = VoxelMap::build(bits, count, cell);
+    if (built && built->bits().back() != bits.back())
+        return bad_shape(SavedKind::voxel_map, "has bits beyond its last voxel");
+    return built;
 }
 
 }  // namespace abut

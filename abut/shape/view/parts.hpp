@@ -13,7 +13,7 @@ namespace abut {
 
 // Adjacency of parts, for the internal-edge (ghost collision) filter.
 // Sides are numbered by the part's kind. Segment: 0 at its first point, 1 at its second. Triangle: i is the edge from
-// corner i to the next. Tile: 2 * axis, plus one at the low end, as the faces of a box.
+// corner i to the next. Tile and voxel: 2 * axis, plus one at the low end, as the faces of a box.
 
 /// A boundary edge: no part is adjacent.
 inline constexpr std::uint32_t no_neighbour = 0xffffffffu;
@@ -37,7 +37,17 @@ struct MeshTree;
 struct MeshSurface;
 
 /// The composite shapes of this library, whose type a file of a Compound needs.
-enum class CompositeKind : std::uint8_t { other, mesh, height_field, tile_map, chain, compound, solid_bsp };
+enum class CompositeKind : std::uint8_t {
+    other,
+    mesh,
+    height_field,
+    tile_map,
+    voxel_map,
+    chain,
+    compound,
+    solid_bsp,
+    removed_child,
+};
 
 /// Each shape specialises it.
 template <class S>

@@ -133,6 +133,9 @@ void call_levels() {
     const TileMap map = *TileMap::build(std::array{Tile::full, Tile::full}, 2, 1.0f);
     visit_parts<2>("TileMap", map);
     expect_cleared_after("TileMap::part", [&] { sink = map.part(0).own[0].x; });
+    const VoxelMap voxels = *VoxelMap::build(std::array{~std::uint64_t{0}}, {4, 4, 4}, 1.0f);
+    visit_parts<3>("VoxelMap", voxels);
+    expect_cleared_after("VoxelMap::box", [&] { sink = voxels.box(0).max.x; });
     const Chain chain = *Chain::build({{0, 0}, {1, 0}, {1, 1}}, true);
     visit_parts<2>("Chain", chain);
     expect_cleared_after("Chain::segment", [&] { sink = chain.segment(0).a.x; });
