@@ -1,4 +1,5 @@
 #include "../oracle/expect.hpp"
+#include "../oracle/random.hpp"
 #include "meshes.hpp"
 #include <abut/query/closest.hpp>
 #include <abut/query/contact.hpp>
@@ -10,12 +11,17 @@
 #include <abut/shape/capsule.hpp>
 #include <abut/shape/chain.hpp>
 #include <abut/shape/compound.hpp>
+#include <abut/shape/file.hpp>
 #include <abut/shape/half_space.hpp>
 #include <abut/shape/mesh.hpp>
 #include <abut/shape/polygon.hpp>
 #include <abut/world/world.hpp>
 
+#include <algorithm>
 #include <limits>
+#include <map>
+#include <string>
+#include <vector>
 
 namespace abut {
 namespace {
@@ -77,6 +83,195 @@ TEST(Compound, InAWorldOutlivesWhatItWasMadeOf) {
     EXPECT_EQ(world.containing({2, 0, 7}).size(), 1u);
     EXPECT_EQ(world.overlapping(Sphere{{-2, 0, 7}, 0.1f}).size(), 1u);
     EXPECT_EQ(world.overlapping(Sphere{{0, 0, 7}, 0.1f}).size(), 0u);
+}
+
+TEST(Compound, ChangesItsChildren) {
+    Compound2 compound = *Compound2::build({Circle{{0, 0}, 1}, Circle{{5, 0}, 1}});
+    const Compound2 before = compound;
+    EXPECT_EQ(*compound.add(Box2{{0, 0}, {1, 1}}, {.position = {10, 0}}), 2u);
+    EXPECT_EQ(closest(compound, Vec2(13, 0)).feature_a.part, 2u);
+    EXPECT_FLOAT_EQ(closest(compound, Vec2(13, 0)).distance, 2);
+    EXPECT_FALSE(compound.move(2, {.position = {20, 0}}));
+    EXPECT_FLOAT_EQ(closest(compound, Vec2(13, 0)).distance, 6);
+    EXPECT_EQ(bounds(compound).max, Vec2(21, 1));
+    compound.remove(0);
+    EXPECT_EQ(compound.size(), 3u);
+    EXPECT_FALSE(compound.has_child(0));
+    EXPECT_FALSE(compound.has_child(3));
+    EXPECT_FALSE(overlaps(compound, Circle{{0, 0}, 1}));
+    EXPECT_EQ(bounds(compound).min, Vec2(4, -1));
+    EXPECT_FALSE(compound.set(1, *Polygon::build({{2, -1}, {3, 0}, {2, 1}})));
+    EXPECT_TRUE(contains(compound, Vec2(2.5f, 0)));
+    EXPECT_FALSE(contains(compound, Vec2(5, 0)));
+    EXPECT_EQ(*compound.add(Circle{{0, 7}, 1}), 0u) << "the smallest free index is reused";
+    EXPECT_TRUE(compound.has_child(0));
+    EXPECT_TRUE(overlaps(compound, Circle{{0, 7}, 1}));
+    for (std::uint32_t i = 0; i < 3; ++i) compound.remove(i);
+    EXPECT_FALSE(overlaps(compound, Circle{{0, 7}, 100}));
+    EXPECT_EQ(closest(compound, Vec2(0, 0)).distance, std::numeric_limits<float>::infinity());
+    EXPECT_FALSE(raycast(Ray2::between({0, 5}, {0, -5}), compound));
+    EXPECT_EQ(*compound.add(Circle{{0, 0}, 1}), 0u);
+    EXPECT_TRUE(raycast(Ray2::between({0, 5}, {0, -5}), compound));
+    EXPECT_EQ(before.size(), 2u);
+    EXPECT_TRUE(contains(before, Vec2(5, 0)));
+}
+
+TEST(Compound, TellsWhatIsWrongWithAChange) {
+    constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+    Compound3 compound = *Compound3::build({Sphere{{0, 0, 0}, 1}});
+    EXPECT_EQ(compound.add(HalfSpace3{{0, 1, 0}, 0}).problem().code, ProblemCode::bad_argument);
+    EXPECT_EQ(compound.add(Sphere{{0, nan, 0}, 1}).problem().code, ProblemCode::not_finite);
+    EXPECT_EQ(compound.add(Sphere{{0, 0, 0}, 1}, {.position = {0, nan, 0}}).problem().code, ProblemCode::not_finite);
+    EXPECT_EQ(compound.set(0, HalfSpace3{{0, 1, 0}, 0})->code, ProblemCode::bad_argument);
+    EXPECT_EQ(compound.set(0, Sphere{{0, 0, 0}, nan})->code, ProblemCode::not_finite);
+    EXPECT_EQ(compound.move(0, {.position = {nan, 0, 0}})->code, ProblemCode::not_finite);
+    EXPECT_EQ(compound.size(), 1u);
+    EXPECT_FLOAT_EQ(closest(compound, Vec3(3, 0, 0)).distance, 2);
+}
+
+/// The children that a compound should have, by their index.
+template <int D>
+using Children = std::map<std::uint32_t, At<AnyShape<D>>>;
+
+/// Adds, removes, replaces or moves a child.
+template <int D>
+void change(oracle::Random& random, Compound<D>& compound, Children<D>& children) {
+    const auto place = [&] { return Pose<D>{detail::to_float(random.in_cube<D>() * 5.0), random.rotation<D>()}; };
+    const auto shape = [&]() -> AnyShape<D> {
+        if (random.chance(0.3)) return Ball<D>{Vec<D>(0.25f), random.uniform_float(0.1, 1)};
+        if (random.chance(0.3)) return Capsule<D>{Vec<D>(0.25f), Vec<D>(-0.5f), random.uniform_float(0.1, 0.5)};
+        if constexpr (D == 3)
+            if (random.chance(0.3)) return test::box_surface({-1, -1, -1}, {1, 0.5f, 0}).mesh();
+        return Box<D>{Vec<D>(0.5f), Vec<D>(random.uniform_float(0.1, 1)), random.rotation<D>()};
+    };
+    const std::uint32_t kind = random.below(5);
+    if (kind == 4) {
+        // Puts a child where there is one, or was one.
+        const std::uint32_t index = random.below(compound.size());
+        children.insert_or_assign(index, At<AnyShape<D>>{shape(), place()});
+        ASSERT_FALSE(compound.set(index, children.at(index).shape, children.at(index).pose));
+        return;
+    }
+    if (kind == 0 || children.empty()) {
+        const At<AnyShape<D>> child{shape(), place()};
+        std::uint32_t free = 0;
+        while (children.contains(free)) ++free;
+        const Result<std::uint32_t> index = compound.add(child.shape, child.pose);
+        ASSERT_TRUE(index);
+        ASSERT_EQ(*index, free);
+        children.emplace(free, child);
+        return;
+    }
+    const auto some = std::next(children.begin(), random.below(static_cast<std::uint32_t>(children.size())));
+    if (kind == 1) {
+        compound.remove(some->first);
+        children.erase(some);
+        return;
+    }
+    if (kind == 2) {
+        some->second.shape = shape();
+        some->second.pose = place();
+        ASSERT_FALSE(compound.set(some->first, some->second.shape, some->second.pose));
+        return;
+    }
+    // Far away, or by so little that it overlaps its place before.
+    if (random.chance(0.5))
+        some->second.pose = place();
+    else
+        some->second.pose.position += detail::to_float(random.in_cube<D>() * 0.3);
+    ASSERT_FALSE(compound.move(some->first, some->second.pose));
+}
+
+/// The answers are those of the children one by one.
+template <int D>
+void expect_children(oracle::Random& random, const Compound<D>& compound, const Children<D>& children) {
+    ASSERT_TRUE(children.empty() || compound.size() > children.rbegin()->first);
+    for (std::uint32_t i = 0; i < compound.size(); ++i) ASSERT_EQ(compound.has_child(i), children.contains(i));
+    const Vec<D> from = detail::to_float(random.in_cube<D>() * 6.0), to = detail::to_float(random.in_cube<D>() * 6.0);
+    const Box<D> box{from, Vec<D>(0.5f), random.rotation<D>()};
+    const Ray<D> ray = Ray<D>::between(from, to);
+    Closest<D> near;
+    near.distance = std::numeric_limits<float>::infinity();
+    float fraction = 2;
+    bool touches = false, inside = false;
+    Aabb<D> all = Aabb<D>::empty();
+    for (const auto& [index, child] : children) {
+        const Closest<D> of_child = closest(box, child);
+        if (of_child.distance < near.distance) {
+            near = of_child;
+            near.feature_b.part = index;
+        }
+        if (const auto hit = raycast(ray, child)) fraction = std::min(fraction, hit->fraction);
+        touches = touches || overlaps(box, child);
+        inside = inside || contains(child, to);
+        all = merged(all, bounds(view(child)));
+    }
+    const Closest<D> found = closest(box, compound);
+    ASSERT_EQ(found.distance, near.distance);
+    if (!children.empty()) {
+        ASSERT_EQ(found.feature_b.part, near.feature_b.part);
+    }
+    const auto hit = raycast(ray, compound);
+    ASSERT_EQ(hit ? hit->fraction : 2, fraction);
+    if (hit) {
+        ASSERT_TRUE(children.contains(hit->feature.part));
+    }
+    ASSERT_EQ(overlaps(box, compound), touches);
+    ASSERT_EQ(contains(compound, to), inside);
+    ASSERT_EQ(bounds(compound).min, all.min);
+    ASSERT_EQ(bounds(compound).max, all.max);
+}
+
+template <int D>
+void expect_children_after_changes() {
+    constexpr std::uint64_t seed = 20261129;
+    oracle::Random random(seed);
+    Compound<D> compound = *Compound<D>::build({Ball<D>{Vec<D>(0.0f), 1}});
+    Children<D> children;
+    children.emplace(0, At<AnyShape<D>>{Ball<D>{Vec<D>(0.0f), 1}, {}});
+    // It grows, shrinks and is saved and loaded.
+    std::size_t most = 0;
+    for (int step = 0; step < 1400; ++step) {
+        SCOPED_TRACE("seed " + std::to_string(seed) + ", step " + std::to_string(step));
+        change(random, compound, children);
+        if (::testing::Test::HasFatalFailure()) return;
+        if (step % 700 < 300) {
+            const At<AnyShape<D>> child{Ball<D>{Vec<D>(0.0f), 0.25f},
+                                        {detail::to_float(random.in_cube<D>() * 5.0), random.rotation<D>()}};
+            children.emplace(*compound.add(child.shape, child.pose), child);
+        }
+        if (step % 700 > 450 && !children.empty()) {
+            compound.remove(children.begin()->first);
+            children.erase(children.begin());
+        }
+        most = std::max(most, children.size());
+        if (step % 250 == 249) {
+            const Result<std::vector<std::byte>> bytes = save(compound);
+            ASSERT_TRUE(bytes);
+            const Result<Compound<D>> again = load_compound<D>(*bytes);
+            ASSERT_TRUE(again) << again.problem().message;
+            EXPECT_EQ(*save(*again), *bytes);
+            // What is in a file is given as it is placed, so that moves would be relative to that.
+            expect_children(random, *again, children);
+            Compound<D> changed = *again;
+            Children<D> its_children = children;
+            const At<AnyShape<D>> child{Ball<D>{Vec<D>(0.0f), 0.25f}, {}};
+            its_children.emplace(*changed.add(child.shape), child);
+            if (its_children.size() > 1) {
+                changed.remove(its_children.rbegin()->first);
+                its_children.erase(std::prev(its_children.end()));
+            }
+            expect_children(random, changed, its_children);
+        }
+        expect_children(random, compound, children);
+        if (::testing::Test::HasFatalFailure()) return;
+    }
+    EXPECT_GT(most, 200u);
+}
+
+TEST(Compound, AnswersAsItsChildrenAfterManyChanges) {
+    expect_children_after_changes<2>();
+    expect_children_after_changes<3>();
 }
 
 }  // namespace

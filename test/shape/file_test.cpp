@@ -66,6 +66,9 @@ TEST(ShapeFile, IsTheSameHeightFieldAgain) {
 TEST(ShapeFile, IsTheSameTileMapAgain) {
     expect_same<TileMap>(100);
 }
+TEST(ShapeFile, IsTheSameVoxelMapAgain) {
+    expect_same<VoxelMap>(100);
+}
 TEST(ShapeFile, IsTheSameChainAgain) {
     expect_same<Chain>(200);
 }

@@ -51,6 +51,8 @@ inline constexpr auto load<HeightField> = &load_height_field;
 template <>
 inline constexpr auto load<TileMap> = &load_tile_map;
 template <>
+inline constexpr auto load<VoxelMap> = &load_voxel_map;
+template <>
 inline constexpr auto load<Chain> = &load_chain;
 template <int D>
 inline constexpr auto load<SolidBsp<D>> = &load_solid_bsp<D>;
@@ -65,6 +67,7 @@ void each_saved_type(const Visit& visit) {
     visit.template operator()<Polygon>();
     visit.template operator()<HeightField>();
     visit.template operator()<TileMap>();
+    visit.template operator()<VoxelMap>();
     visit.template operator()<Chain>();
     visit.template operator()<SolidBsp2>();
     visit.template operator()<SolidBsp3>();
@@ -158,6 +161,16 @@ inline TileMap random_shape<TileMap>(oracle::Random& random) {
 }
 
 template <>
+inline VoxelMap random_shape<VoxelMap>(oracle::Random& random) {
+    const glm::uvec3 count(1 + random.below(6), 1 + random.below(6), 1 + random.below(6));
+    const std::uint32_t size = count.x * count.y * count.z;
+    std::vector<std::uint64_t> bits((size + 63) / 64);
+    for (std::uint64_t& word : bits) word = random.bits() & random.bits();
+    if (size % 64 != 0) bits.back() &= (std::uint64_t{1} << size % 64) - 1;
+    return *VoxelMap::build(bits, count, Vec3(0.5f, random.uniform_float(0.2, 1), 0.3f));
+}
+
+template <>
 inline Chain random_shape<Chain>(oracle::Random& random) {
     std::vector<Vec2> points;
     const std::uint32_t count = 3 + random.below(80);
@@ -233,9 +246,12 @@ S random_compound(oracle::Random& random, bool nested) {
         add_children<3>(mesh, random, children);
         if (random.chance(0.5)) children.emplace_back(solid(mesh));
         add_children<3>(random_shape<HeightField>(random), random, children);
+        add_children<3>(random_shape<VoxelMap>(random), random, children);
     }
     if (nested) add_children<D>(random_compound<S, D>(random, random.chance(0.3)), random, children);
-    return *Compound<D>::build(children);
+    Compound<D> result = *Compound<D>::build(children);
+    if (children.size() > 1 && random.chance(0.3)) result.remove(random.below(result.size()));
+    return result;
 }
 template <>
 inline Compound2 random_shape<Compound2>(oracle::Random& random) {

@@ -6,15 +6,20 @@
 #include <abut/query/closest.hpp>
 #include <abut/query/raycast.hpp>
 #include <abut/query/sweep.hpp>
+#include <abut/shape/ball.hpp>
 #include <abut/shape/box.hpp>
+#include <abut/shape/compound.hpp>
 #include <abut/shape/height_field.hpp>
+#include <abut/shape/mesh.hpp>
 #include <abut/shape/placed.hpp>
 #include <abut/shape/tile_map.hpp>
+#include <abut/shape/voxel_map.hpp>
 #include <abut/world/world.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -93,6 +98,72 @@ struct ChangingHeights {
     std::vector<bool> holes = std::vector<bool>((columns - 1) * (rows - 1), false);
 };
 
+/// A voxel map, and the voxels that should be solid. The upper half is empty at first.
+struct ChangingVoxels {
+    using Level = VoxelMap;
+    static constexpr int D = 3;
+    static constexpr std::uint32_t nx = 11, ny = 6, nz = 9, size = nx * ny * nz;
+
+    ChangingVoxels() {
+        for (std::uint32_t i = 0; i < size / 2; ++i) bits[i / 64] |= std::uint64_t{1} << i % 64;
+    }
+    Level build() const { return *VoxelMap::build(bits, {nx, ny, nz}, {0.75f, 0.5f, 0.6f}); }
+    void change(Random& random, VoxelMap& map) {
+        const std::uint32_t x = random.below(nx), y = random.below(ny), z = random.below(nz), i = x + nx * (y + ny * z);
+        const bool solid = random.chance(0.5);
+        if (map.at(x, y, z) != solid) bits[i / 64] ^= std::uint64_t{1} << i % 64;
+        map.set(x, y, z, solid);
+    }
+    static Vec3 extent() { return {nx * 0.75f, ny * 0.5f, nz * 0.6f}; }
+
+    std::vector<std::uint64_t> bits = std::vector<std::uint64_t>((size + 63) / 64);
+};
+
+/// A compound, and the children that it should have.
+template <int Dimension>
+struct ChangingChildren {
+    using Level = Compound<Dimension>;
+    static constexpr int D = Dimension;
+
+    ChangingChildren() {
+        Random random(seed);
+        for (int i = 0; i < 30; ++i) children.push_back(child(random));
+    }
+    /// Where a child was removed, the compound is built with another one, which is removed.
+    Level build() const {
+        std::vector<AnyShape<D>> all;
+        for (const auto& each : children) all.push_back(each.value_or(AnyShape<D>(Ball<D>{Vec<D>(0.0f), 1})));
+        Level result = *Level::build(all);
+        for (std::uint32_t i = 0; i < children.size(); ++i)
+            if (!children[i]) result.remove(i);
+        return result;
+    }
+    void change(Random& random, Level& level) {
+        const std::uint32_t some = random.below(static_cast<std::uint32_t>(children.size()));
+        const AnyShape<D> shape = child(random);
+        if (children[some] && random.chance(0.5)) {
+            level.remove(some);
+            children[some].reset();
+        } else if (children[some]) {
+            EXPECT_FALSE(level.set(some, shape));
+            children[some] = shape;
+        } else {
+            const std::uint32_t index = *level.add(shape);
+            if (index == children.size()) children.emplace_back();
+            children[index] = shape;
+        }
+    }
+    static Vec<D> extent() { return Vec<D>(8.0f); }
+
+    static AnyShape<D> child(Random& random) {
+        const Vec<D> place = detail::to_float((random.in_cube<D>() + detail::DVec<D>(1.0)) * 4.0);
+        if (random.chance(0.3)) return Ball<D>{place, random.uniform_float(0.2, 1)};
+        return Box<D>{place, Vec<D>(random.uniform_float(0.2, 1)), random.rotation<D>()};
+    }
+
+    std::vector<std::optional<AnyShape<D>>> children;
+};
+
 template <class Changing>
 Vec<Changing::D> point_in(Random& random) {
     Vec<Changing::D> point;
@@ -100,24 +171,35 @@ Vec<Changing::D> point_in(Random& random) {
     return point;
 }
 
-/// Whether two levels give the same parts, neighbours and bounds.
+/// The number of sides of a part.
+template <class Level>
+constexpr std::uint32_t sides = std::is_same_v<Level, TileMap>    ? 4
+                                : std::is_same_v<Level, VoxelMap> ? 6
+                                                                  : 3;
+
+/// The parts, neighbours and bounds of a level.
 template <class Level>
 Bits parts_of(const Level& level) {
     Bits bits;
     bits.put(bounds(level).min);
     bits.put(bounds(level).max);
+    // The order is that of the tree.
+    std::vector<std::uint32_t> parts;
     each_part(level, bounds(level), [&](const auto&, std::uint32_t index) {
-        bits.put(index);
-        for (std::uint32_t side = 0; side < (std::is_same_v<Level, TileMap> ? 4 : 3); ++side)
-            bits.put(part_neighbour(level, index, side));
+        parts.push_back(index);
         return true;
     });
+    std::ranges::sort(parts);
+    bits.put(parts);
+    if constexpr (requires { part_neighbour(level, 0u, 0u); })
+        for (const std::uint32_t part : parts)
+            for (std::uint32_t side = 0; side < sides<Level>; ++side) bits.put(part_neighbour(level, part, side));
     return bits;
 }
 
 template <class Changing>
 class EditShape : public testing::Test {};
-using Kinds = testing::Types<ChangingTiles, ChangingHeights>;
+using Kinds = testing::Types<ChangingTiles, ChangingHeights, ChangingVoxels, ChangingChildren<2>, ChangingChildren<3>>;
 TYPED_TEST_SUITE(EditShape, Kinds);
 
 TYPED_TEST(EditShape, OfALevelIsLikeBuildingIt) {
@@ -253,6 +335,41 @@ TEST(EditShapeOfAWorld, MakesAndClosesSeams) {
     world.update();
     ASSERT_EQ(world.contacts().size(), 1u);
     EXPECT_EQ(world.contacts()[0].contact.normal, Vec2(0, 1));
+}
+
+/// The parts of a mesh as children: a crate on the seam between two of them, of which one is switched off and moved.
+TEST(EditShapeOfAWorld, SwitchesTheMeshesOfACompound) {
+    const Mesh square = *Mesh::build(std::vector<Vec3>{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}},
+                                     std::vector<glm::uvec3>{{0, 1, 2}, {0, 2, 3}});
+    const Pose3 beside{.position = {4, 0, 0}};
+    World3 world;
+    const Id floor = world.add(*Compound3::build({square, at(square, beside)}), {.fixed = true});
+    world.add(Box3{{0, 0, 0}, Vec3(0.5f)}, {.pose = {.position = {4, 2, 0.49f}}});
+    const auto expect_width = [&](float width) {
+        world.update();
+        ASSERT_EQ(world.contacts().size(), 1u);
+        const Contact<3>& contact = world.contacts()[0].contact;
+        EXPECT_EQ(contact.normal, Vec3(0, 0, 1));
+        ASSERT_EQ(contact.points.size(), 4u);
+        float low = 100, high = -100;
+        for (const auto& point : contact.points) {
+            low = std::min(low, point.position.x);
+            high = std::max(high, point.position.x);
+        }
+        EXPECT_NEAR(high - low, width, 1e-5);
+    };
+    const auto edit = [&](const auto& change) { ASSERT_TRUE(world.edit_shape<Compound3>(floor, change)); };
+    expect_width(1);
+    edit([](Compound3& level) { level.remove(1); });
+    expect_width(0.5f);
+    edit([&](Compound3& level) { EXPECT_FALSE(level.set(1, square, beside)); });
+    expect_width(1);
+    edit([](Compound3& level) { EXPECT_FALSE(level.move(1, {.position = {4.25f, 0, 0}})); });
+    expect_width(1);  // a slit
+    edit([](Compound3& level) { EXPECT_FALSE(level.move(1, {.position = {4, 0, -1}})); });
+    expect_width(0.5f);
+    edit([&](Compound3& level) { EXPECT_FALSE(level.move(1, beside)); });
+    expect_width(1);
 }
 
 TEST(HeightField, SetTellsWhatIsWrong) {

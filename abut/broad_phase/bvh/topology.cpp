@@ -3,6 +3,7 @@
 #include <abut/broad_phase/bvh/topology.hpp>
 #include <abut/math/simd/library_entry.hpp>
 
+#include <algorithm>
 #include <utility>
 
 namespace abut::detail {
@@ -41,6 +42,8 @@ public:
             if (root != bvh_none && !visit(root, 0)) return false;
         return nodes_ * bvh_lanes == topology_.children.size() && leaves_ == topology_.counts.size();
     }
+    /// The number of levels of nodes.
+    int depth() const { return depth_; }
 
 private:
     bool visit(std::uint32_t ref, int depth) {
@@ -49,6 +52,7 @@ private:
         // The leaf below the last node is one level deeper.
         if (depth + 1 >= bvh_depth || number != nodes_++ || number >= topology_.children.size() / bvh_lanes)
             return false;
+        depth_ = std::max(depth_, depth + 1);
         bool ended = false;
         for (std::uint32_t lane = 0; lane < bvh_lanes; ++lane) {
             const std::uint32_t child = topology_.children[std::size_t{bvh_lanes} * number + lane];
@@ -63,6 +67,7 @@ private:
 
     const BvhTopology& topology_;
     std::size_t nodes_ = 0, leaves_ = 0;
+    int depth_ = 0;
 };
 
 }  // namespace
@@ -93,7 +98,8 @@ BvhTopology BvhTree<D>::topology() const {
 
 template <int D>
 bool BvhTree<D>::build(std::span<const Aabb<D>> boxes, const BvhTopology& topology) {
-    if (topology.items.size() > boxes.size() || !TopologyCheck(topology).is_sound()) return false;
+    TopologyCheck check(topology);
+    if (topology.items.size() > boxes.size() || !check.is_sound()) return false;
     BvhTree result;
     result.positions_.assign(boxes.size(), position_none);
     result.roots_[0].ref = topology.roots[0];
@@ -128,6 +134,8 @@ bool BvhTree<D>::build(std::span<const Aabb<D>> boxes, const BvhTopology& topolo
     if (result.items_ != topology.items.size() || items != result.items_) return false;
     for (BvhNode<D>& node : result.nodes_) node.built_area = node.area;
     *this = std::move(result);
+    // Insertions need the levels above those of a build.
+    if (check.depth() > bvh_binned_depth + 32) build(boxes, nullptr);
     return true;
 }
 

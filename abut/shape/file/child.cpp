@@ -1,5 +1,6 @@
 #include <abut/math/detail/no_index.hpp>
 #include <abut/math/dvec.hpp>
+#include <abut/shape/detail/removed_child.hpp>
 #include <abut/shape/file.hpp>
 #include <abut/shape/file/blob.hpp>
 #include <abut/shape/file/child.hpp>
@@ -12,7 +13,7 @@
 namespace abut::detail {
 namespace {
 
-enum class ChildKind : std::uint8_t { points, box, discs, polytope, composite };
+enum class ChildKind : std::uint8_t { points, box, discs, polytope, composite, removed };
 
 constexpr std::uint8_t similar_flag = 1, one_sided_child_flag = 2, solid_child_flag = 4, all_child_flags = 7;
 
@@ -226,9 +227,11 @@ bool ChildWriter<D>::add(const Convex<D>& child) {
 template <int D>
 bool ChildWriter<D>::add(const Composite<D>& child) {
     if (!is_placement<D>(child)) return false;
-    const std::optional<std::uint32_t> file = number_of(data_of(child), [&] { return saved_composite(child); });
+    const bool is_removed = child.kind == CompositeKind::removed_child;
+    std::optional<std::uint32_t> file = 0;
+    if (!is_removed) file = number_of(data_of(child), [&] { return saved_composite(child); });
     if (!file) return false;
-    writer_.number(ChildKind::composite);
+    writer_.number(is_removed ? ChildKind::removed : ChildKind::composite);
     writer_.number(static_cast<std::uint8_t>((child.similar ? similar_flag : 0) |
                                              (child.solid != nullptr ? solid_child_flag : 0)));
     writer_.number(*file);
@@ -301,8 +304,12 @@ std::optional<AnyShape<D>> ChildReader<D>::child(BlobReader& reader) {
     const auto kind = static_cast<ChildKind>(kind_number);
     placement.similar = (flags & similar_flag) != 0;
     const bool one_sided = (flags & one_sided_child_flag) != 0, solid = (flags & solid_child_flag) != 0;
-    if (!whole || kind > ChildKind::composite || flags > all_child_flags || !is_placement<D>(placement))
+    if (!whole || kind > ChildKind::removed || flags > all_child_flags || !is_placement<D>(placement))
         return std::nullopt;
+    if (kind == ChildKind::removed) {
+        if (number != 0 || one_sided || solid) return std::nullopt;
+        return AnyShape<D>(LoadedComposite<RemovedChild<D>, D>{{}, placement, false});
+    }
     if (kind == ChildKind::polytope || kind == ChildKind::composite) {
         // Files are numbered in the order in which children refer to them.
         if (number >= shapes_.size() || number > used_) return std::nullopt;

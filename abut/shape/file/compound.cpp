@@ -1,6 +1,7 @@
 // The data of a compound: the number of files, each file with its size before it, the number of children, the children,
 // and the topology of the tree of their boxes. Polytopes and composite shapes that children share have one file. A
-// child is its kind, the number of its file, its placement, and the numbers of a core that needs no file.
+// child is its kind, the number of its file, its placement, and the numbers of a core that needs no file. A removed
+// child has a kind of its own.
 
 #include <abut/broad_phase/bvh/topology.hpp>
 #include <abut/math/detail/no_index.hpp>
