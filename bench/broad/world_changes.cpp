@@ -1,16 +1,20 @@
 // The cost of changes to a World: a move with its update, queries between a move and the update, compared with queries
-// of an updated world, snapshots, and a level of which a tile changes.
+// of an updated world, snapshots, and a level of which a tile, a voxel or a child changes.
 
 #include "../../scenes/moving_boxes.hpp"
 #include "broad.hpp"
 #include <abut/shape/ball.hpp>
 #include <abut/shape/box.hpp>
+#include <abut/shape/compound.hpp>
+#include <abut/shape/placed.hpp>
 #include <abut/shape/tile_map.hpp>
+#include <abut/shape/voxel_map.hpp>
 #include <abut/world/world.hpp>
 
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace abut::bench {
 
@@ -171,40 +175,121 @@ Job snapshots(bool saves) {
     return job;
 }
 
-/// Changes a tile of a large map on which boxes rest, and updates: in place, and with a map that is built anew.
-Job tile_changes() {
-    constexpr std::uint32_t side_tiles = 512;
+/// A large tile map on which boxes rest, one tile of which changes.
+struct ChangingTiles {
+    using Level = TileMap;
+    static constexpr int D = 2;
+    static constexpr std::uint32_t side = 512;
+
+    Level build() const { return *TileMap::build(tiles, side, 1.0f); }
+    void add_boxes(World2& world) const {
+        for (int i = 0; i < 100; ++i)
+            world.add(Box2{{5.0f * static_cast<float>(i) + 2.3f, side + 0.49f}, {0.5f, 0.5f}});
+    }
+    void step() {
+        changed = (changed + 7) % side + side * (side - 1);
+        tiles[changed] = tiles[changed] == Tile::full ? Tile::empty : Tile::full;
+    }
+    void edit(Level& map) const { map.set(changed, tiles[changed]); }
+
+    std::vector<Tile> tiles = std::vector<Tile>(side * side, Tile::full);
+    std::uint32_t changed = 0;
+};
+
+/// The same with a voxel map, in its uppermost layer.
+struct ChangingVoxels {
+    using Level = VoxelMap;
+    static constexpr int D = 3;
+    static constexpr std::uint32_t side = 128, layer = side * side;
+
+    Level build() const { return *VoxelMap::build(bits, {side, side, side}, 1.0f); }
+    void add_boxes(World3& world) const {
+        for (int i = 0; i < 100; ++i)
+            world.add(Box3{
+                {5.0f * static_cast<float>(i % 25) + 2.3f, 30.0f * static_cast<float>(i / 25) + 4.3f, side + 0.49f},
+                Vec3(0.5f)});
+    }
+    void step() {
+        changed = (changed + 7) % layer + layer * (side - 1);
+        bits[changed / 64] ^= std::uint64_t{1} << changed % 64;
+    }
+    void edit(Level& map) const { map.set(changed, (bits[changed / 64] >> changed % 64 & 1) != 0); }
+
+    std::vector<std::uint64_t> bits = std::vector<std::uint64_t>(layer * side / 64, ~std::uint64_t{0});
+    std::uint32_t changed = 0;
+};
+
+/// A compound of boxes, such as doors, of which one is moved by half its width.
+struct ChangingChildren {
+    using Level = Compound3;
+    static constexpr int D = 3;
+    static constexpr std::uint32_t side = 32;
+
+    ChangingChildren() {
+        for (std::uint32_t i = 0; i < poses.size(); ++i) poses[i] = pose_of(i, false);
+    }
+    static Pose3 pose_of(std::uint32_t i, bool moved) {
+        return {.position = {static_cast<float>(i % side) + (moved ? 0.5f : 0.0f), static_cast<float>(i / side), 0}};
+    }
+    Level build() const {
+        std::vector<AnyShape<3>> children;
+        for (const Pose3& pose : poses) children.emplace_back(at(door, pose));
+        return *Compound3::build(children);
+    }
+    void add_boxes(World3& world) const {
+        for (int i = 0; i < 100; ++i)
+            world.add(Box3{{3.0f * static_cast<float>(i % 10) + 0.3f, 3.0f * static_cast<float>(i / 10) + 0.3f, 0.95f},
+                           Vec3(0.5f)});
+    }
+    void step() {
+        changed = (changed + 7) % side + side * ((changed / side + 1) % side);
+        const Pose3 pose = pose_of(changed, false);
+        poses[changed] = poses[changed] == pose ? pose_of(changed, true) : pose;
+    }
+    void edit(Level& compound) const { compound.set(changed, door, poses[changed]); }
+
+    Box3 door{{0, 0, 0}, Vec3(0.5f)};
+    std::vector<Pose3> poses = std::vector<Pose3>(side * side);
+    std::uint32_t changed = 0;
+};
+
+/// Changes a level, in place and by building it anew, and updates the world. The update counts or not.
+template <class Changing>
+Job level_changes(bool with_update) {
+    using Level = typename Changing::Level;
     struct State {
         State() {
-            level = world.add(*TileMap::build(tiles, side_tiles, 1.0f), {.fixed = true});
-            for (int i = 0; i < 100; ++i)
-                world.add(Box2{{5.0f * static_cast<float>(i) + 2.3f, side_tiles + 0.49f}, {0.5f, 0.5f}});
+            level = world.add(changing.build(), {.fixed = true});
+            changing.add_boxes(world);
         }
-        World2 world;
-        std::vector<Tile> tiles = std::vector<Tile>(side_tiles * side_tiles, Tile::full);
+        World<Changing::D> world;
+        Changing changing;
         Id level;
-        std::uint32_t changed = 0;
     };
-    const auto side = [](std::string who, bool in_place) -> Side {
+    const auto side = [with_update](std::string who, bool in_place) -> Side {
         const auto state = std::make_shared<State>();
-        const auto run = [state, in_place](std::span<double> values) {
-            const std::uint32_t tile = state->changed;
+        const auto run = [=](std::span<double> values) {
             if (in_place)
-                state->world.edit_shape<TileMap>(state->level,
-                                                 [&](TileMap& map) { map.set(tile, state->tiles[tile]); });
+                state->world.template edit_shape<Level>(state->level,
+                                                        [&](Level& level) { state->changing.edit(level); });
             else
-                state->world.set_shape(state->level, *TileMap::build(state->tiles, side_tiles, 1.0f));
-            state->world.update();
+                state->world.set_shape(state->level, state->changing.build());
+            if (with_update) state->world.update();
+            // Without an update these are the contacts after the change before.
             values[0] = static_cast<double>(state->world.contacts().size());
+            values[1] = 0;
+            for (const auto& touch : state->world.contacts())
+                for (const auto& point : touch.contact.points)
+                    values[1] += static_cast<double>(point.depth) + static_cast<double>(point.position.x);
         };
-        return {std::move(who), run, [state] {
-                    state->changed = (state->changed + 7) % side_tiles + side_tiles * (side_tiles - 1);
-                    Tile& tile = state->tiles[state->changed];
-                    tile = tile == Tile::full ? Tile::empty : Tile::full;
-                }};
+        const auto prepare = [=] {
+            if (!with_update) state->world.update();
+            state->changing.step();
+        };
+        return {std::move(who), run, prepare};
     };
     return {.items = 1,
-            .values = 1,
+            .values = 2,
             .rounds = 8,
             .frames = 10,
             .tolerance = 0,
@@ -221,7 +306,12 @@ std::vector<Bench> world_change_benches() {
         {"broad/world/between/overlap/3d/5000", [] { return queries_between_moves(Query::overlap); }},
         {"broad/world/move/balls/3d/5000", [] { return moves<Sphere>(); }},
         {"broad/world/move/boxes/3d/5000", [] { return moves<Box3>(); }},
-        {"broad/world/tile/2d/512", tile_changes},
+        {"broad/world/tile/2d/512", [] { return level_changes<ChangingTiles>(true); }},
+        {"broad/world/voxel/3d/128", [] { return level_changes<ChangingVoxels>(true); }},
+        {"broad/world/child/3d/1024", [] { return level_changes<ChangingChildren>(true); }},
+        {"broad/world/edit/tile/2d/512", [] { return level_changes<ChangingTiles>(false); }},
+        {"broad/world/edit/voxel/3d/128", [] { return level_changes<ChangingVoxels>(false); }},
+        {"broad/world/edit/child/3d/1024", [] { return level_changes<ChangingChildren>(false); }},
         {"broad/world/save/3d/5000", [] { return snapshots(true); }},
         {"broad/world/restore/3d/5000", [] { return snapshots(false); }},
     };
