@@ -138,6 +138,35 @@ TEST(VoxelMap, AnswersAsTheBoxesOfItsVoxels) {
     EXPECT_GT(hits, maps * queries / 5);
 }
 
+/// Rays from far away, along faces and through edges and corners of a map of several blocks.
+TEST(VoxelMap, IsHitByRaysThroughCornersAndFromAfar) {
+    Random random(seed);
+    int hits = 0;
+    constexpr int queries = 3000;
+    for (int k = 0; k < queries; ++k) {
+        SCOPED_TRACE("seed " + std::to_string(seed) + ", step " + std::to_string(k));
+        static VoxelMap map = random_map(random);
+        if (k % 50 == 0) {
+            map = empty_map({21, 19, 18}, Vec3(0.7f, 0.3f, 1.1f));
+            for (int i = 0; i < 60; ++i) map.set(random.below(map.size()), true);
+        }
+        const auto on_grid = [&] { return Vec3(random.below(22), random.below(20), random.below(19)) * map.cell(); };
+        const Vec3 to = on_grid();
+        Vec3 from = on_grid();
+        if (random.chance(0.3)) from = to + (from - to) * random.uniform_float(1, 1e5);
+        if (random.chance(0.3)) from.x = to.x;
+        if (random.chance(0.3)) from.z = to.z;
+        const Ray3 ray = Ray3::between(from, to + (to - from));
+        float fraction = 2;
+        for (const std::uint32_t voxel : solid_voxels(map))
+            if (const auto hit = raycast(ray, map.box(voxel))) fraction = std::min(fraction, hit->fraction);
+        const auto hit = raycast(ray, map);
+        EXPECT_EQ(hit ? hit->fraction : 2, fraction);
+        hits += hit ? 1 : 0;
+    }
+    EXPECT_GT(hits, queries / 20);
+}
+
 /// Each solid voxel in a box is visited once, by a small box, which visits cells directly, and by a large one.
 TEST(VoxelMap, VisitsThePartsInABox) {
     Random random(seed);

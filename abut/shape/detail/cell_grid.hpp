@@ -5,6 +5,8 @@
 #include <abut/shape/detail/grid_hierarchy.hpp>
 #include <abut/shape/view/parts.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace abut::detail {
@@ -19,6 +21,39 @@ struct OccupiedRange {
 template <int D>
 OccupiedRange<D> merged(const OccupiedRange<D>& a, const OccupiedRange<D>& b) {
     return {glm::min(a.first, b.first), glm::max(a.end, b.end)};
+}
+
+/// Shrinks a box to the part that the path of a ray or of a moving box may touch. Returns false if it can't tell.
+template <int D>
+bool clip(const RayReach<D>& reach, DVec<D>& low, DVec<D>& high) {
+    double from = 0, to = reach.reach();
+    for (int i = 0; i < D; ++i) {
+        if (reach.direction()[i] == 0) continue;
+        const double at_low = (low[i] - reach.high()[i]) * reach.inverse()[i],
+                     at_high = (high[i] - reach.low()[i]) * reach.inverse()[i];
+        from = std::max(from, std::min(at_low, at_high));
+        to = std::min(to, std::max(at_low, at_high));
+    }
+    if (!(std::isfinite(from) && std::isfinite(to))) return false;
+    for (int i = 0; i < D; ++i) {
+        const double a = reach.direction()[i] * from, b = reach.direction()[i] * to;
+        const double rounding =
+            1e-14 * (std::abs(reach.low()[i]) + std::abs(reach.high()[i]) + std::abs(a) + std::abs(b));
+        low[i] = std::max(low[i], reach.low()[i] + std::min(a, b) - rounding);
+        high[i] = std::min(high[i], reach.high()[i] + std::max(a, b) + rounding);
+    }
+    return true;
+}
+/// The same with the part that is near a box.
+template <int D>
+bool clip(const BoxReach<D>& reach, DVec<D>& low, DVec<D>& high) {
+    const double distance = std::sqrt(reach.max_measure());
+    if (!std::isfinite(distance)) return false;
+    for (int i = 0; i < D; ++i) {
+        low[i] = std::max(low[i], static_cast<double>(reach.box().min[i]) - distance);
+        high[i] = std::min(high[i], static_cast<double>(reach.box().max[i]) + distance);
+    }
+    return true;
 }
 
 /// The index of a cell is that of its place, row by row. `is_occupied(index)` is a callable that tells of a cell.
@@ -74,8 +109,9 @@ public:
         const auto box_of_block = [&](std::uint32_t level, const Place& place) {
             return box_of(level == 0 ? range_of(place, is_occupied) : blocks_.at(level, place));
         };
-        blocks_.traverse(reach, box_of_block,
-                         [&](const Place& place) { reach.shrink(visit(box_of(place), index(place))); });
+        blocks_.traverse(
+            reach, box_of_block, [&](const Place& place) { reach.shrink(visit(box_of(place), index(place))); },
+            [&](std::uint32_t level, Place& first, Place& end) { narrow(reach, level, first, end); });
     }
 
     /// Calls visit(box, index) for the occupied cells whose boxes overlap `box`, until it returns false.
@@ -99,6 +135,26 @@ public:
     }
 
 private:
+    /// Leaves out blocks beside the path of a ray or a moving box, or too far from a box. The coordinates of blocks are
+    /// floats, and rounded by less than the padding.
+    template <class Reach>
+    void narrow(const Reach& reach, std::uint32_t level, Place& first, Place& end) const {
+        const double blocks = blocks_.width(level);
+        DVec<D> size, low, high;
+        for (int axis = 0; axis < D; ++axis) {
+            size[axis] = static_cast<double>(cell[axis]) * blocks;
+            low[axis] = first[axis] * size[axis];
+            high[axis] = end[axis] * size[axis];
+        }
+        if (!clip(reach, low, high)) return;
+        for (int axis = 0; axis < D; ++axis) {
+            const double padding = 1e-6 * (1 + end[axis]);
+            const double from = low[axis] / size[axis] - padding, to = high[axis] / size[axis] + padding;
+            if (from > first[axis]) first[axis] = static_cast<std::uint32_t>(std::min<double>(from, end[axis]));
+            if (to < end[axis]) end[axis] = to < first[axis] ? first[axis] : static_cast<std::uint32_t>(to) + 1;
+        }
+    }
+
     template <class IsOccupied>
     OccupiedRange<D> range_of(const Place& place, const IsOccupied& is_occupied) const {
         return is_occupied(index(place)) ? OccupiedRange<D>{place, place + 1u} : OccupiedRange<D>();

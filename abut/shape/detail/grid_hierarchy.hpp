@@ -107,9 +107,10 @@ public:
 
     /// Calls visit(place) for the cells within reach, a RayReach or BoxReach, nearest first among the children of a
     /// block. `box_of(level, place)` is the box of a block, or of a cell at level 0; an empty box is skipped. `visit`
-    /// shrinks the reach.
-    template <class Reach, class BoxOf, class Visit>
-    void traverse(const Reach& reach, BoxOf&& box_of, Visit&& visit) const {
+    /// shrinks the reach. `narrow(level, first, end)` may narrow the range of blocks, or of cells at level 0, that are
+    /// children of one block: those left out are beyond the reach.
+    template <class Reach, class BoxOf, class Visit, class Narrow>
+    void traverse(const Reach& reach, BoxOf&& box_of, Visit&& visit, Narrow&& narrow) const {
         std::array<StackEntry, max_stack> stack;
         std::size_t stack_size = 0;
         const auto push = [&](std::uint32_t level, const Place& place, std::size_t bottom) {
@@ -130,12 +131,21 @@ public:
             }
             const Place& below = next.level == 1 ? cells_ : level_of(next.level - 1).count;
             const std::size_t bottom = stack_size;
-            each_place<D>(next.place * side, glm::min(below, (next.place + 1u) * side), [&](const Place& place) {
+            Place first = next.place * side, end = glm::min(below, (next.place + 1u) * side);
+            narrow(next.level - 1, first, end);
+            each_place<D>(first, end, [&](const Place& place) {
                 push(next.level - 1, place, bottom);
                 return true;
             });
         }
     }
+    template <class Reach, class BoxOf, class Visit>
+    void traverse(const Reach& reach, BoxOf&& box_of, Visit&& visit) const {
+        traverse(reach, box_of, visit, [](std::uint32_t, Place&, Place&) {});
+    }
+
+    /// The number of cells along the edge of a block.
+    static double width(std::uint32_t level) { return static_cast<double>(std::uint64_t{1} << 2 * level); }
 
 private:
     static constexpr std::uint32_t side = 4;
