@@ -65,12 +65,14 @@ std::optional<Problem> Compound<D>::Data::set(std::span<const AnyShape<D>> shape
 }
 
 template <int D>
-void Compound<D>::Data::put(std::uint32_t index, const AnyShape<D>& child, const View<D>& placed, const Aabb<D>& box) {
-    children[index] = child;
-    views[index] = placed;
+void Compound<D>::put(std::uint32_t index, const AnyShape<D>& child, const View<D>& placed, const Aabb<D>& box) {
+    Data& data = own_data();
+    changed_.add(merged(detail::bounds(data.views[index]), box));
+    data.children[index] = child;
+    data.views[index] = placed;
     // A box that is replaced may leave larger boxes above it; a removed one doesn't, so that the bounds are exact.
-    tree.set(index, Aabb<D>::empty());
-    count_change(tree.set(index, box));
+    data.tree.set(index, Aabb<D>::empty());
+    data.count_change(data.tree.set(index, box));
 }
 
 template <int D>
@@ -111,13 +113,14 @@ Result<std::uint32_t> Compound<D>::add(const AnyShape<D>& child, const Pose<D>& 
     if (!data.removed.empty()) {
         const std::uint32_t index = *data.removed.begin();
         data.removed.erase(data.removed.begin());
-        data.put(index, child, placed, box);
+        put(index, child, placed, box);
         return index;
     }
     const std::uint32_t index = data.tree.insert(box);
     data.children.push_back(child);
     data.views.push_back(placed);
     data.count_change(true);
+    changed_.add(box);
     return index;
 }
 
@@ -131,7 +134,7 @@ std::optional<Problem> Compound<D>::set(std::uint32_t index, const AnyShape<D>& 
     if (std::optional<Problem> problem = check(placed, index, box)) return problem;
     Data& data = own_data();
     data.removed.erase(index);
-    data.put(index, child, placed, box);
+    put(index, child, placed, box);
     return std::nullopt;
 }
 
@@ -151,7 +154,7 @@ void Compound<D>::remove(std::uint32_t index) {
     Data& data = own_data();
     const AnyShape<D> nothing = RemovedChild<D>();
     data.removed.insert(index);
-    data.put(index, nothing, nothing.view(), Aabb<D>::empty());
+    put(index, nothing, nothing.view(), Aabb<D>::empty());
 }
 
 template <int D>

@@ -4,6 +4,7 @@
 
 #include <abut/math/result.hpp>
 #include <abut/shape/any_shape.hpp>
+#include <abut/shape/detail/changed_box.hpp>
 
 #include <cstddef>
 #include <initializer_list>
@@ -69,6 +70,8 @@ public:
     void each_part_along(const MovingBox<D>& box, detail::PartReachVisitor<D> visit) const;
     void each_part_near(const Aabb<D>& box, detail::PartReachVisitor<D> visit) const;
     bool solid_contains(const Vec<D>& point) const;
+    /// The box outside of which no answer has changed since the last call.
+    Aabb<D> take_changed() { return changed_.take(); }
 
 private:
     template <int E>
@@ -79,8 +82,10 @@ private:
     struct Data;
     explicit Compound(std::shared_ptr<Data> data) : data_(std::move(data)) {}
     Data& own_data();
+    void put(std::uint32_t index, const AnyShape<D>& child, const View<D>& placed, const Aabb<D>& box);
 
     std::shared_ptr<Data> data_;  // of this compound alone before it changes
+    detail::ChangedBox<D> changed_;
 };
 
 extern template class Compound<2>;
@@ -92,6 +97,12 @@ using Compound3 = Compound<3>;
 template <int D>
 Aabb<D> bounds(const Compound<D>& compound) {
     return compound.bounds();
+}
+
+/// The box outside of which no answer has changed since the last call, for World::edit_shape.
+template <int D>
+Aabb<D> take_changed(Compound<D>& compound) {
+    return compound.take_changed();
 }
 
 /// Visits the convex children and the parts of composite children whose boxes overlap `box`. The visitor returns false

@@ -58,9 +58,6 @@ struct HeightField::Data {
         return {std::min(std::min(a, b), std::min(c, d)), std::max(std::max(a, b), std::max(c, d))};
     }
     HeightRange of_cell(const glm::uvec2& place) const { return of_cell(place.x, place.y); }
-    void update_cells(const glm::uvec2& first, const glm::uvec2& end) {
-        blocks.update(first, end, [this](const glm::uvec2& place) { return of_cell(place); });
-    }
     Aabb3 box_of_block(std::uint32_t level, const glm::uvec2& place) const {
         const HeightRange z = level == 0 ? of_cell(place) : blocks.at(level, place);
         if (!(z.min <= z.max)) return Aabb3::empty();
@@ -165,7 +162,7 @@ std::optional<Problem> HeightField::set(std::uint32_t column, std::uint32_t row,
     const glm::uvec2 first(column - std::min(column, 1u), row - std::min(row, 1u));
     const glm::uvec2 end(std::min(column + block_columns, data.cell_columns()),
                          std::min(row + static_cast<std::uint32_t>(block_rows), data.cell_rows()));
-    data.update_cells(first, end);
+    update_cells(first, end);
     return std::nullopt;
 }
 
@@ -177,7 +174,15 @@ void HeightField::set_hole(std::uint32_t cell, bool hole) {
     data.holes.resize(data.cell_count());
     data.holes[cell] = hole;
     const glm::uvec2 place(cell % data.cell_columns(), cell / data.cell_columns());
-    data.update_cells(place, place + 1u);
+    update_cells(place, place + 1u);
+}
+
+void HeightField::update_cells(const glm::uvec2& first, const glm::uvec2& end) {
+    const Aabb3 before = bounds(*this);
+    data_->blocks.update(first, end, [this](const glm::uvec2& place) { return data_->of_cell(place); });
+    const Aabb3 after = bounds(*this);
+    const Vec2 low = Vec2(first) * cell(), high = Vec2(end) * cell();
+    changed_.add({{low, std::min(before.min.z, after.min.z)}, {high, std::max(before.max.z, after.max.z)}});
 }
 
 std::span<const float> HeightField::heights() const {
@@ -235,6 +240,10 @@ Aabb3 bounds(const HeightField& field) {
     result.max = data.corner(data.columns - 1, data.rows - 1);
     result.max.z = all.max;
     return result;
+}
+
+Aabb3 take_changed(HeightField& field) {
+    return field.changed_.take();
 }
 
 void each_part(const HeightField& field, const Aabb3& box,

@@ -3,6 +3,7 @@
 // Height field: terrain as heights over a regular grid.
 
 #include <abut/math/result.hpp>
+#include <abut/shape/detail/changed_box.hpp>
 #include <abut/shape/triangle.hpp>
 #include <abut/shape/view/view.hpp>
 
@@ -57,8 +58,10 @@ private:
     struct Data;
     explicit HeightField(std::shared_ptr<Data> data) : data_(std::move(data)) {}
     Data& own_data();
+    void update_cells(const glm::uvec2& first, const glm::uvec2& end);
 
     friend Aabb3 bounds(const HeightField& field);
+    friend Aabb3 take_changed(HeightField& field);
     friend void each_part(const HeightField& field, const Aabb3& box,
                           FunctionRef<bool(const Triangle3& part, std::uint32_t index)> visit);
     friend void each_part_along(const HeightField& field, const MovingBox<3>& box,
@@ -67,10 +70,14 @@ private:
                                FunctionRef<float(const Triangle3& part, std::uint32_t index)> visit);
 
     std::shared_ptr<Data> data_;  // of this field alone before it changes
+    detail::ChangedBox<3> changed_;
 };
 
 /// The bounding box; empty if all cells are holes.
 Aabb3 bounds(const HeightField& field);
+
+/// The box outside of which no answer has changed since the last call, for World::edit_shape.
+Aabb3 take_changed(HeightField& field);
 
 /// Visits the triangles whose boxes overlap `box`; the visitor returns false to stop.
 void each_part(const HeightField& field, const Aabb3& box,

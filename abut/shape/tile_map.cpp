@@ -111,6 +111,7 @@ void TileMap::set(std::uint32_t index, Tile tile) {
     if (data_.use_count() > 1) data_ = std::make_shared<Data>(*data_);
     data_->tiles[index] = tile;
     data_->grid.update(index, *data_);
+    changed_.add(box(index));
 }
 
 std::span<const Tile> TileMap::tiles() const {
@@ -149,6 +150,10 @@ std::uint32_t TileMap::neighbour(std::uint32_t tile, std::uint32_t side) const {
 Aabb2 bounds(const TileMap& map) {
     detail::enter_library();
     return map.data_->grid.bounds();
+}
+
+Aabb2 take_changed(TileMap& map) {
+    return map.changed_.take();
 }
 
 void each_part(const TileMap& map, const Aabb2& box, PartVisitor<2> visit) {

@@ -3,6 +3,7 @@
 // Tile map: level geometry in 2D on a regular grid.
 
 #include <abut/math/result.hpp>
+#include <abut/shape/detail/changed_box.hpp>
 #include <abut/shape/view/view.hpp>
 
 #include <memory>
@@ -64,15 +65,20 @@ private:
     explicit TileMap(std::shared_ptr<Data> data) : data_(std::move(data)) {}
 
     friend Aabb2 bounds(const TileMap& map);
+    friend Aabb2 take_changed(TileMap& map);
     friend void each_part(const TileMap& map, const Aabb2& box, detail::PartVisitor<2> visit);
     friend void each_part_along(const TileMap& map, const MovingBox<2>& box, detail::PartReachVisitor<2> visit);
     friend void each_part_near(const TileMap& map, const Aabb2& box, detail::PartReachVisitor<2> visit);
 
     std::shared_ptr<Data> data_;  // of this map alone before it changes
+    detail::ChangedBox<2> changed_;
 };
 
 /// The box around all non-empty tiles; empty if there are none.
 Aabb2 bounds(const TileMap& map);
+
+/// The box outside of which no answer has changed since the last call, for World::edit_shape.
+Aabb2 take_changed(TileMap& map);
 
 /// Visits the non-empty tiles whose boxes overlap `box`; the visitor returns false to stop.
 void each_part(const TileMap& map, const Aabb2& box, detail::PartVisitor<2> visit);

@@ -63,6 +63,7 @@ void VoxelMap::set(std::uint32_t index, bool solid) {
     if (data_.use_count() > 1) data_ = std::make_shared<Data>(*data_);
     data_->bits[index / 64] ^= std::uint64_t{1} << index % 64;
     data_->grid.update(index, *data_);
+    changed_.add(box(index));
 }
 
 bool VoxelMap::at(std::uint32_t index) const {
@@ -104,6 +105,10 @@ std::uint32_t VoxelMap::neighbour(std::uint32_t voxel, std::uint32_t side) const
 Aabb3 bounds(const VoxelMap& map) {
     detail::enter_library();
     return map.data_->grid.bounds();
+}
+
+Aabb3 take_changed(VoxelMap& map) {
+    return map.changed_.take();
 }
 
 void each_part(const VoxelMap& map, const Aabb3& box, PartVisitor<3> visit) {

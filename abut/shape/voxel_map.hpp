@@ -3,6 +3,7 @@
 // Voxel map: level geometry in 3D on a regular grid.
 
 #include <abut/math/result.hpp>
+#include <abut/shape/detail/changed_box.hpp>
 #include <abut/shape/view/view.hpp>
 
 #include <cstdint>
@@ -51,15 +52,20 @@ private:
     explicit VoxelMap(std::shared_ptr<Data> data) : data_(std::move(data)) {}
 
     friend Aabb3 bounds(const VoxelMap& map);
+    friend Aabb3 take_changed(VoxelMap& map);
     friend void each_part(const VoxelMap& map, const Aabb3& box, detail::PartVisitor<3> visit);
     friend void each_part_along(const VoxelMap& map, const MovingBox<3>& box, detail::PartReachVisitor<3> visit);
     friend void each_part_near(const VoxelMap& map, const Aabb3& box, detail::PartReachVisitor<3> visit);
 
     std::shared_ptr<Data> data_;  // of this map alone before it changes
+    detail::ChangedBox<3> changed_;
 };
 
 /// The box around all solid voxels; empty if there are none.
 Aabb3 bounds(const VoxelMap& map);
+
+/// The box outside of which no answer has changed since the last call, for World::edit_shape.
+Aabb3 take_changed(VoxelMap& map);
 
 /// Visits the solid voxels whose boxes overlap `box`; the visitor returns false to stop.
 void each_part(const VoxelMap& map, const Aabb3& box, detail::PartVisitor<3> visit);

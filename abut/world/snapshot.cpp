@@ -427,9 +427,11 @@ std::optional<Problem> World<D>::restore(std::span<const std::byte> bytes) {
     pending_.clear();
     for (std::uint32_t slot = 0; slot < snapshot.slots; ++slot) {
         items_[slot].pending = true;
+        items_[slot].pending_in_box = false;
         pending_.push_back(slot);
     }
     previous_poses_.clear();
+    changed_boxes_.clear();
     free_.clear();
     for (const auto& [slot, generation] : snapshot.free) {
         items_[slot].generation = generation;

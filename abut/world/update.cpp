@@ -34,6 +34,18 @@ bool World<D>::may_pair(std::uint32_t slot, std::uint32_t other) const {
            (!pair_filter_ || pair_filter_(id_of(std::min(slot, other)), id_of(std::max(slot, other))));
 }
 
+/// Whether an item has changed where another one is, or near: the filter of internal edges looks no farther than 0.01
+/// of a radius beyond the smaller of two items.
+template <int D>
+bool World<D>::has_changed_near(std::uint32_t slot, std::uint32_t other) const {
+    if (!items_[slot].pending || !items_[slot].pending_in_box) return items_[slot].pending;
+    constexpr float reach = 1.0f / 64;
+    const Aabb<D>& near = box(other);
+    const auto of_slot = std::find_if(changed_boxes_.begin(), changed_boxes_.end(),
+                                      [slot](const auto& changed) { return changed.first == slot; });
+    return overlaps(of_slot->second, grown(near, reach * length(near.max - near.min)));
+}
+
 /// Whether a pair filter has just begun to accept a near pair.
 template <int D>
 bool World<D>::has_new_answer(const detail::SlotPair& pair) const {
@@ -213,11 +225,12 @@ Events World<D>::find_events(Executor* executor) {
     pair_index_.defer(capacity);
 
     for (const std::uint32_t slot : pending_) {
-        items_[slot].pending = false;
+        items_[slot].pending = items_[slot].pending_in_box = false;
         items_[slot].settled = true;
         items_[slot].previous = none;
     }
     pending_.clear();
+    changed_boxes_.clear();
     previous_poses_.clear();
     swept_boxes_.clear();
     filters_pairs_ = pair_filter_ != nullptr;

@@ -1,6 +1,7 @@
 #include <abut/broad_phase/boxes.hpp>
 #include <abut/broad_phase/detail/reserve_one_more.hpp>
 #include <abut/math/assert.hpp>
+#include <abut/shape/view/mapped_box.hpp>
 #include <abut/world/world.hpp>
 
 #include <utility>
@@ -101,15 +102,37 @@ void World<D>::set_any_shape(Id id, const AnyShape<D>& shape) {
 }
 
 template <int D>
-bool World<D>::edit_any_shape(Id id, FunctionRef<bool(AnyShape<D>&)> edit) {
+bool World<D>::edit_any_shape(Id id, FunctionRef<bool(AnyShape<D>&, Aabb<D>&)> edit) {
     Item* item = expected(id);
     if (item == nullptr) return false;
+    const std::uint32_t slot = id.index - 1;
+    const Aabb<D> before = bounds(item->stored);
     // A copy, if a snapshot may need the shape as it was.
-    release_shape(id.index - 1);
-    const bool is_edited = edit(item->stored);
+    release_shape(slot);
+    Aabb<D> changed;
+    const bool is_edited = edit(item->stored, changed);
     detail::clear_upper_halves();
-    if (is_edited) reset_item(id.index - 1);
-    return is_edited;
+    if (!is_edited) return false;
+    const bool in_box = (!item->pending || item->pending_in_box) && bounds(item->stored) == before &&
+                        changed != detail::everywhere<D>();
+    reset_item(slot);
+    if (in_box) mark_changed_in(slot, changed);
+    return true;
+}
+
+/// Restricts the change of an item to a box in its own frame. Its size must not have changed, by which the filter of
+/// internal edges measures.
+template <int D>
+void World<D>::mark_changed_in(std::uint32_t slot, const Aabb<D>& box) {
+    Item& item = items_[slot];
+    item.pending_in_box = true;
+    const Aabb<D> placed = is_empty(box) ? box : detail::mapped_box(box, affine(item.pose));
+    for (auto& [other, changed] : changed_boxes_)
+        if (other == slot) {
+            changed = merged(changed, placed);
+            return;
+        }
+    changed_boxes_.emplace_back(slot, placed);
 }
 
 template <int D>
@@ -179,6 +202,7 @@ BoundingBall<D> World<D>::ball(const Item& item) const {
 
 template <int D>
 void World<D>::mark_pending(std::uint32_t slot) {
+    items_[slot].pending_in_box = false;
     if (items_[slot].pending) return;
     items_[slot].pending = true;
     detail::reserve_one_more(pending_);

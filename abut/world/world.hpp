@@ -9,6 +9,7 @@
 #include <abut/math/result.hpp>
 #include <abut/query/raycast.hpp>
 #include <abut/shape/any_shape.hpp>
+#include <abut/shape/detail/changed_box.hpp>
 #include <abut/world/batch.hpp>
 #include <abut/world/detail/item_boxes.hpp>
 #include <abut/world/detail/pair_index.hpp>
@@ -97,7 +98,9 @@ public:
     /// and the next update see the change, as after `set_shape`.
     template <Ownable S, class F>
     bool edit_shape(Id id, F&& edit) {
-        return edit_any_shape(id, [&](AnyShape<D>& shape) { return shape.template edit<S>(edit); });
+        return edit_any_shape(id, [&](AnyShape<D>& shape, Aabb<D>& changed) {
+            return shape.template edit<S>([&](S& own) { changed = detail::edit_and_take_changed<D>(own, edit); });
+        });
     }
     void move(Id id, const Pose<D>& pose) {
         detail::clear_upper_halves();
@@ -376,7 +379,8 @@ private:
     template <class SavedItem>
     void restore_item(const SavedItem& saved);
     void set_any_shape(Id id, const AnyShape<D>& shape);
-    bool edit_any_shape(Id id, FunctionRef<bool(AnyShape<D>&)> edit);
+    bool edit_any_shape(Id id, FunctionRef<bool(AnyShape<D>&, Aabb<D>&)> edit);
+    void mark_changed_in(std::uint32_t slot, const Aabb<D>& box);
     const Item* find(Id id) const;
     const Item* expected(Id id) const;
     Item* expected(Id id);
@@ -413,6 +417,7 @@ private:
     bool may_pair(std::uint32_t slot, std::uint32_t other) const;
     void find_near(Executor* executor);
     bool has_new_answer(const detail::SlotPair& pair) const;
+    bool has_changed_near(std::uint32_t slot, std::uint32_t other) const;
     void list_neighbours();
     class PairTests;
     void test_near(Executor* executor);
@@ -460,7 +465,8 @@ private:
     std::vector<detail::SweptBox<D>> swept_boxes_;  // by index in previous_poses_; in an update with continuous items
     std::vector<std::uint32_t> free_;
     std::vector<std::uint32_t> pending_;
-    bool widened_ = false;  // the broad phases hold swept AABBs of moved items
+    std::vector<std::pair<std::uint32_t, Aabb<D>>> changed_boxes_;  // of slots that changed in a box alone
+    bool widened_ = false;                                          // the broad phases hold swept AABBs of moved items
     std::size_t count_ = 0, continuous_ = 0;
 
     detail::ItemBoxes<D> fixed_, moving_;

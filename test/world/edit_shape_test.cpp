@@ -337,6 +337,39 @@ TEST(EditShapeOfAWorld, MakesAndClosesSeams) {
     EXPECT_EQ(world.contacts()[0].contact.normal, Vec2(0, 1));
 }
 
+/// Twenty crates on a floor of tiles. Pairs are tested again where the floor has changed, and all if it was replaced.
+TEST(EditShapeOfAWorld, TestsAgainWhatIsNear) {
+    const TileMap flat = *TileMap::build(std::vector<Tile>(100, Tile::full), 100, 1.f);
+    World2 world;
+    const Id floor = world.add(flat, {.fixed = true});
+    for (int i = 0; i < 20; ++i) world.add(Box2{{5.0f * static_cast<float>(i) + 2.3f, 1.49f}, {0.5f, 0.5f}});
+    world.update();
+    const auto tested_after = [&](const auto& edit) {
+        EXPECT_TRUE(world.edit_shape<TileMap>(floor, edit));
+        world.update();
+        EXPECT_EQ(world.counts().near, 20u);
+        return world.counts().tested;
+    };
+    EXPECT_EQ(tested_after([](TileMap&) {}), 0u);
+    EXPECT_EQ(tested_after([](TileMap& map) { map.set(12, Tile::empty); }), 1u);  // crate 2 is above
+    EXPECT_EQ(tested_after([](TileMap& map) { map.set(15, Tile::empty); }), 0u);
+    EXPECT_EQ(tested_after([](TileMap& map) {
+                  map.set(12, Tile::full);
+                  map.set(22, Tile::empty);
+              }),
+              3u);  // the box of both changes
+    EXPECT_EQ(tested_after([&](TileMap& map) { map = flat; }), 20u);
+    world.edit_shape<TileMap>(floor, [](TileMap& map) { map.set(12, Tile::empty); });
+    EXPECT_EQ(tested_after([](TileMap& map) { map.set(17, Tile::empty); }), 2u);
+    EXPECT_EQ(world.contacts().size(), 20u);
+    // A change of its extent tests all again, and so does a motion.
+    EXPECT_EQ(tested_after([](TileMap& map) { map.set(99, Tile::empty); }), 20u);
+    world.edit_shape<TileMap>(floor, [](TileMap& map) { map.set(12, Tile::full); });
+    world.move(floor, {.position = {0, 0.001f}});
+    world.update();
+    EXPECT_EQ(world.counts().tested, 20u);
+}
+
 /// The parts of a mesh as children: a crate on the seam between two of them, of which one is switched off and moved.
 TEST(EditShapeOfAWorld, SwitchesTheMeshesOfACompound) {
     const Mesh square = *Mesh::build(std::vector<Vec3>{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}},

@@ -1,16 +1,8 @@
 #include <abut/motion/mover/nearby_parts.hpp>
 #include <abut/query/detail/one_sided.hpp>
+#include <abut/shape/view/mapped_box.hpp>
 
 namespace abut::detail {
-namespace {
-
-template <int D>
-constexpr Aabb<D> everywhere() {
-    constexpr float infinity = std::numeric_limits<float>::infinity();
-    return {Vec<D>(-infinity), Vec<D>(infinity)};
-}
-
-}  // namespace
 
 template <int D>
 void NearbyParts<D>::clear() {

@@ -23,8 +23,6 @@ struct Compound<D>::Data {
 
     /// Sets the children and their views; the tree is to be built of the boxes.
     std::optional<Problem> set(std::span<const AnyShape<D>> shapes, std::vector<Aabb<D>>& boxes);
-    /// Puts a checked child at an index below the number of children.
-    void put(std::uint32_t index, const AnyShape<D>& child, const View<D>& placed, const Aabb<D>& box);
     /// Counts a change of the tree, and updates the tree if there were many, or if the change didn't succeed. So it
     /// stays about as good as a new one, and its depth bounded.
     void count_change(bool succeeded);

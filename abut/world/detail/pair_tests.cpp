@@ -31,7 +31,9 @@ template <int D>
 void World<D>::PairTests::test_pair(const detail::SlotPair& near) {
     const Item &a = items_[near.a], &b = items_[near.b];
     const IdPair pair{world_.id_of(near.a), world_.id_of(near.b)};
-    if (!a.pending && !b.pending && !world_.has_new_answer(near)) return repeat_last(pair);
+    if (!world_.has_changed_near(near.a, near.b) && !world_.has_changed_near(near.b, near.a) &&
+        !world_.has_new_answer(near))
+        return repeat_last(pair);
     ++results_.tested;
     // A pair may be near by its swept boxes alone; it touches only if the present boxes overlap.
     const bool touch = (!world_.widened_ || overlaps(world_.box(near.a), world_.box(near.b))) && test_touch(pair);

@@ -27,8 +27,8 @@ void World<D>::find_changed_neighbours() {
             const auto& [a, b] = pair;
             // A pair filter may change its answer for items that did not change.
             const bool is_new = filters_pairs_ && !std::binary_search(others.begin(), others.end(), pair);
-            if (items_[a].pending || is_new) changed[b] = true;
-            if (items_[b].pending || is_new) changed[a] = true;
+            if (is_new || has_changed_near(a, b)) changed[b] = true;
+            if (is_new || has_changed_near(b, a)) changed[a] = true;
         }
     };
     mark(near_, last_near_);
