@@ -4,7 +4,6 @@
 // collision) filter. For .cpp files.
 
 #include <abut/motion/mover/nearby_parts.hpp>
-#include <abut/motion/mover/sdf_planes.hpp>
 
 namespace abut::detail {
 
@@ -18,6 +17,14 @@ struct NearContact {
     Feature feature{};
     bool overlapped = false;  ///< the part overlapped the shape at its start
     bool is_sdf = false;      ///< the part is a signed distance function and may have several contact planes
+};
+
+/// A contact plane of the part, at the support point of the shape along it.
+template <int D>
+struct SdfPlane {
+    DVec<D> normal{0.0};  ///< unit normal, facing the shape
+    DVec<D> point{0.0};   ///< point on the surface
+    double gap = 0;       ///< distance from the shape along the normal; at least 0
 };
 
 template <int D>
