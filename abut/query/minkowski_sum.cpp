@@ -3,7 +3,6 @@
 #include <abut/math/assert.hpp>
 #include <abut/query/minkowski_sum.hpp>
 
-#include <algorithm>
 #include <array>
 #include <type_traits>
 #include <utility>

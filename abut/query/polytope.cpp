@@ -14,7 +14,6 @@
 #include <abut/query/polytope.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -92,6 +91,9 @@ std::vector<DVec<2>> inscribed_corners(const Convex<2>& convex, double tolerance
     return result;
 }
 
+/// The cosine of half a right angle.
+constexpr double half_right_angle = 0.7071067811865475;
+
 /// An expanding polyhedron inside the set. Support queries go along the normals of its faces, and across edges where
 /// the faces differ by more than a right angle, as those of a flat polygon always do.
 class InscribedPolyhedron {
@@ -101,7 +103,24 @@ public:
             for (const double sign : {1.0, -1.0}) points_.push_back(to_float(support(convex, axis<3>(i, sign))));
     }
 
-    std::vector<Vec3> inscribed_corners();
+    /// Adds the farthest points first: points far less out may be inside once those are added.
+    std::vector<Vec3> inscribed_corners() {
+        for (std::size_t found = points_.size();; found += outside_.size()) {
+            const Result<Hull3> built = hull(points_);
+            if (!built) return points_;
+            points_ = built->points;
+            probe_directions(*built);
+            std::stable_sort(outside_.begin(), outside_.end(),
+                             [](const Outside& a, const Outside& b) { return a.height > b.height; });
+            const auto far_less = [&](const Outside& outside) {
+                return outside.height < 0.25 * outside_.front().height;
+            };
+            outside_.erase(std::find_if(outside_.begin(), outside_.end(), far_less), outside_.end());
+            outside_.resize(std::min(outside_.size(), max_polyhedron_vertices - found));
+            if (outside_.empty()) return points_;
+            for (const Outside& outside : outside_) points_.push_back(outside.point);
+        }
+    }
 
 private:
     struct Outside {
@@ -109,65 +128,44 @@ private:
         double height;
     };
 
-    void probe(const DVec<3>& direction, double reached, double allowed);
-    void probe_directions(const Hull3& hull);
+    void probe(const DVec<3>& direction, double reached, double allowed) {
+        const DVec<3> beyond = support(convex_, direction);
+        const double height = dot(direction, beyond) - reached;
+        if (height > allowed) outside_.push_back({to_float(beyond), height});
+    }
+
+    void probe_directions(const Hull3& hull) {
+        outside_.clear();
+        const auto point = [&](std::size_t i) { return DVec<3>(hull.points[i]); };
+        if (hull.rank == 1) {
+            const DVec<3> u = perpendicular(point(1) - point(0)), v = normalized(cross(point(1) - point(0), u));
+            for (const DVec<3>& n : {u, -u, v, -v})
+                probe(n, std::max(dot(n, point(0)), dot(n, point(1))), half_right_angle * tolerance_);
+            return;
+        }
+        std::vector<double> min_cosine(hull.normals.size(),
+                                       1.0);  // of the angles that a face makes with its neighbours
+        for (const FacetEdge& edge : hull.edges) {
+            const DVec<3> left(hull.normals[edge.left]), right(hull.normals[edge.right]);
+            const double cosine = dot(left, right);
+            for (const std::uint32_t face : {edge.left, edge.right})
+                min_cosine[face] = std::min(min_cosine[face], cosine);
+            if (cosine >= 0) continue;
+            const DVec<3> along = normalized(point(edge.to) - point(edge.from));
+            const DVec<3> n = normalized(left + right + cross(along, left) + cross(right, along));
+            probe(n, dot(n, point(edge.from)), half_right_angle * tolerance_);
+        }
+        for (std::size_t face = 0; face < hull.normals.size(); ++face) {
+            const double half_angle = std::sqrt(std::max(0.5 * (1 + min_cosine[face]), 0.5));
+            probe(DVec<3>(hull.normals[face]), hull.offsets[face], half_angle * tolerance_);
+        }
+    }
 
     const Convex<3>& convex_;
     double tolerance_;
     std::vector<Vec3> points_;
     std::vector<Outside> outside_;
 };
-
-/// The cosine of half a right angle.
-constexpr double half_right_angle = 0.7071067811865475;
-
-void InscribedPolyhedron::probe(const DVec<3>& direction, double reached, double allowed) {
-    const DVec<3> beyond = support(convex_, direction);
-    const double height = dot(direction, beyond) - reached;
-    if (height > allowed) outside_.push_back({to_float(beyond), height});
-}
-
-void InscribedPolyhedron::probe_directions(const Hull3& hull) {
-    outside_.clear();
-    const auto point = [&](std::size_t i) { return DVec<3>(hull.points[i]); };
-    if (hull.rank == 1) {
-        const DVec<3> u = perpendicular(point(1) - point(0)), v = normalized(cross(point(1) - point(0), u));
-        for (const DVec<3>& n : {u, -u, v, -v})
-            probe(n, std::max(dot(n, point(0)), dot(n, point(1))), half_right_angle * tolerance_);
-        return;
-    }
-    std::vector<double> min_cosine(hull.normals.size(), 1.0);  // of the angles that a face makes with its neighbours
-    for (const FacetEdge& edge : hull.edges) {
-        const DVec<3> left(hull.normals[edge.left]), right(hull.normals[edge.right]);
-        const double cosine = dot(left, right);
-        for (const std::uint32_t face : {edge.left, edge.right}) min_cosine[face] = std::min(min_cosine[face], cosine);
-        if (cosine >= 0) continue;
-        const DVec<3> along = normalized(point(edge.to) - point(edge.from));
-        const DVec<3> n = normalized(left + right + cross(along, left) + cross(right, along));
-        probe(n, dot(n, point(edge.from)), half_right_angle * tolerance_);
-    }
-    for (std::size_t face = 0; face < hull.normals.size(); ++face) {
-        const double half_angle = std::sqrt(std::max(0.5 * (1 + min_cosine[face]), 0.5));
-        probe(DVec<3>(hull.normals[face]), hull.offsets[face], half_angle * tolerance_);
-    }
-}
-
-/// Adds the farthest points first: points far less out may be inside once those are added.
-std::vector<Vec3> InscribedPolyhedron::inscribed_corners() {
-    for (std::size_t found = points_.size();; found += outside_.size()) {
-        const Result<Hull3> built = hull(points_);
-        if (!built) return points_;
-        points_ = built->points;
-        probe_directions(*built);
-        std::stable_sort(outside_.begin(), outside_.end(),
-                         [](const Outside& a, const Outside& b) { return a.height > b.height; });
-        const auto far_less = [&](const Outside& outside) { return outside.height < 0.25 * outside_.front().height; };
-        outside_.erase(std::find_if(outside_.begin(), outside_.end(), far_less), outside_.end());
-        outside_.resize(std::min(outside_.size(), max_polyhedron_vertices - found));
-        if (outside_.empty()) return points_;
-        for (const Outside& outside : outside_) points_.push_back(outside.point);
-    }
-}
 
 std::vector<DVec<3>> inscribed_corners(const Convex<3>& convex, double tolerance) {
     std::vector<DVec<3>> result;

@@ -1,5 +1,4 @@
 #include <abut/math/simd/library_entry.hpp>
-#include <abut/query/detail/part_pairs.hpp>
 #include <abut/query/detail/raycast/part_hit.hpp>
 #include <abut/query/detail/solid/solid_motion.hpp>
 #include <abut/query/detail/valid_query.hpp>

@@ -1,8 +1,6 @@
 #include <abut/convex/manifold/round_manifold.hpp>
 #include <abut/math/detail/set_affine.hpp>
-#include <abut/query/detail/closed_form/closed_form.hpp>
 #include <abut/query/detail/closed_form/core_pairs3.hpp>
-#include <abut/query/detail/part_pairs.hpp>
 #include <abut/query/detail/write_answer.hpp>
 #include <abut/query/overlaps.hpp>
 #include <abut/shape/polyhedron.hpp>

@@ -3,7 +3,6 @@
 // directions are those of the triangles that it crosses and of those near it, the axes, and the normals of the planes
 // through which a move left the solid. A search over moves to where planes meet takes care of notches.
 
-#include <abut/convex/gjk/gjk.hpp>
 #include <abut/query/detail/pair_dispatch.hpp>
 #include <abut/query/detail/solid/convex_depth.hpp>
 #include <abut/query/detail/solid/placed_solid.hpp>
@@ -14,7 +13,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 namespace abut::detail {

@@ -2,7 +2,6 @@
 #include <abut/query/detail/solid/interior_overlap.hpp>
 
 #include <algorithm>
-#include <cmath>
 
 namespace abut::detail {
 namespace {

@@ -10,14 +10,217 @@
 // Every move that is taken has passed the exact test.
 
 #include <abut/math/detail/next_float.hpp>
+#include <abut/math/dvec.hpp>
+#include <abut/query/closest.hpp>
 #include <abut/query/detail/solid/interior_overlap.hpp>
-#include <abut/query/detail/solid/move_cover.hpp>
 #include <abut/query/detail/solid/separating_move.hpp>
 #include <abut/query/detail/solid/slide_interval.hpp>
+#include <abut/query/raycast.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
+#include <cstddef>
+#include <optional>
+
+namespace abut::detail {
+namespace {
+
+/// A ball inside a solid.
+struct InnerBall {
+    DVec<3> center{0.0};
+    double radius = 0;
+};
+
+Vec3 middle_of(const Corners& t) {
+    return to_float((t[0] + t[1] + t[2]) / 3.0);
+}
+
+/// The ball around the middle of a chord that begins at a triangle.
+std::optional<InnerBall> inner_ball(const View<3>& shape, const PlacedSolid& solid, std::uint32_t triangle,
+                                    double extent) {
+    const Corners t = solid.corners(triangle);
+    const Vec3 inward = to_float(normalized<3>(cross(t[2] - t[0], t[1] - t[0])));
+    const Vec3 start = middle_of(t) + inward * static_cast<float>(1e-4 * extent);
+    const std::optional<Hit<3>> end = raycast(Ray3{start, inward, static_cast<float>(extent)}, shape);
+    if (!end) return std::nullopt;
+    const Vec3 center = start + inward * (0.5f * end->distance);
+    if (solid.side_of(DVec<3>(center)) != PointSide::inside) return std::nullopt;
+    const float radius = std::abs(closest(shape, Ball<3>{center, 0}).distance);
+    if (!(radius > 0)) return std::nullopt;
+    return InnerBall{DVec<3>(center), static_cast<double>(radius) * (1 - 1e-4)};
+}
+
+/// Balls inside a solid, behind triangles evenly spread over their order.
+template <std::size_t N>
+std::size_t find_inner_balls(const View<3>& shape, const PlacedSolid& solid, std::array<InnerBall, N>& balls) {
+    const double extent = length(DVec<3>(solid.box().max) - DVec<3>(solid.box().min));
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < N; ++i) {
+        const auto triangle = static_cast<std::uint32_t>(i * solid.triangle_count() / N);
+        if (const std::optional<InnerBall> ball = inner_ball(shape, solid, triangle, extent)) balls[count++] = *ball;
+    }
+    return count;
+}
+
+/// Refers to the two solids.
+class MoveCover {
+public:
+    MoveCover(const PlacedSolid& a, const PlacedSolid& b) : a_(a), b_(b) {}
+
+    /// Adds the moves that bring a ball inside B to a ball inside A. The balls are found by rays through the shapes.
+    void add_balls(const View<3>& shape_a, const View<3>& shape_b) {
+        std::array<InnerBall, max_inner> inner_a, inner_b;
+        const std::size_t count_a = find_inner_balls(surface_view(shape_a), a_, inner_a),
+                          count_b = find_inner_balls(surface_view(shape_b), b_, inner_b);
+        for (std::size_t i = 0; i < count_a; ++i)
+            for (std::size_t j = 0; j < count_b; ++j) {
+                const DVec<3> center = inner_a[i].center - inner_b[j].center;
+                const double radius = inner_a[i].radius + inner_b[j].radius;
+                if (is_in_ball(center, radius)) continue;
+                x_[ball_count_] = center.x;
+                y_[ball_count_] = center.y;
+                z_[ball_count_] = center.z;
+                radius_[ball_count_] = radius;
+                beyond_[ball_count_++] = length_squared(center) - radius * radius;
+                min_distance_ = std::max(min_distance_, radius - length(center));
+            }
+    }
+
+    /// Adds the moves at which two triangles cross.
+    void add_pair(std::uint32_t triangle_a, std::uint32_t triangle_b) {
+        const Corners a = a_.corners(triangle_a), b = b_.corners(triangle_b);
+        const DVec<3> middle_a = (a[0] + a[1] + a[2]) / 3.0, middle_b = (b[0] + b[1] + b[2]) / 3.0;
+        double radius_a = 0, radius_b = 0;
+        for (std::size_t i = 0; i < 3; ++i) {
+            radius_a = std::max(radius_a, length(a[i] - middle_a));
+            radius_b = std::max(radius_b, length(b[i] - middle_b));
+        }
+        pairs_[next_pair_] = {triangle_a, triangle_b};
+        around_pairs_[next_pair_] = {middle_a - middle_b, radius_a + radius_b};
+        next_pair_ = (next_pair_ + 1) % max_pairs;
+        pair_count_ = std::min(pair_count_ + 1, max_pairs);
+    }
+
+    /// No shorter move parts the solids.
+    double min_distance() const { return min_distance_; }
+
+    /// Whether a ball contains the moves along a direction up to the limit, which seldom changes. Quick.
+    bool has_ball_along(const DVec<3>& direction, double limit) {
+        if (limit != limit_of_caps_) {
+            limit_of_caps_ = limit;
+            cap_count_ = 0;
+            for (std::size_t i = 0; i < ball_count_; ++i) {
+                const double beyond = beyond_[i];
+                if (beyond < 0)
+                    caps_[cap_count_++] = {static_cast<std::uint32_t>(i), (limit * limit + beyond) / (2 * limit)};
+            }
+        }
+        for (std::size_t i = 0; i < cap_count_; ++i) {
+            if (!(dot(direction, center(caps_[i].ball)) > caps_[i].min_along)) continue;
+            // Neighbouring directions are in one ball.
+            std::swap(caps_[i], caps_[i / 2]);
+            return true;
+        }
+        return false;
+    }
+
+    /// Goes on along a direction as long as a set contains the move, at least by `step`, or up to the limit. Sets the
+    /// normal of the last plane.
+    void leave(const DVec<3>& direction, double step, double limit, double& distance, DVec<3>& normal) {
+        if (distance == 0) set_spans(direction);
+        for (bool goes_on = true; goes_on && distance < limit;) {
+            goes_on = false;
+            const double end = end_of_balls(distance, step);
+            if (end > distance) normal = DVec<3>(0.0);
+            distance = end;
+            for (std::size_t i = 0; i < pair_count_ && distance < limit; ++i) {
+                const Ball& around = around_pairs_[i];
+                if (length_squared(direction * distance - around.center) >= around.radius * around.radius) continue;
+                SlideInterval slide;
+                const SlideRange range{distance == 0 ? 0 : distance - step, distance + 2 * step};
+                if (!slide_interval(a_.corners(pairs_[i].a), b_.corners(pairs_[i].b), direction, range, slide))
+                    continue;
+                distance = slide.to;
+                normal = slide.exit_normal;
+                goes_on = true;
+            }
+        }
+    }
+
+    /// Whether a set contains the move.
+    bool has_ball_at(const DVec<3>& move) const {
+        const double squared = length_squared(move);
+        for (std::size_t i = 0; i < ball_count_; ++i)
+            if (squared - 2 * (x_[i] * move.x + y_[i] * move.y + z_[i] * move.z) + beyond_[i] < 0) return true;
+        return false;
+    }
+
+private:
+    /// A ball of moves, or the pair of triangles whose moves are in it.
+    struct Ball {
+        DVec<3> center{0.0};
+        double radius = 0;
+    };
+    struct TrianglePair {
+        std::uint32_t a, b;
+    };
+
+    static constexpr std::size_t max_inner = 24;  ///< balls inside of each solid
+    static constexpr std::size_t max_pairs = 256;
+
+    static constexpr std::size_t max_balls = max_inner * max_inner;
+
+    bool is_in_ball(const DVec<3>& middle, double radius) const {
+        for (std::size_t i = 0; i < ball_count_; ++i) {
+            const double between = radius_[i] - radius;
+            if (between >= 0 && length_squared(middle - center(i)) <= between * between) return true;
+        }
+        return false;
+    }
+
+    DVec<3> center(std::size_t ball) const { return {x_[ball], y_[ball], z_[ball]}; }
+    /// Sets the spans in which the balls contain moves along a direction.
+    void set_spans(const DVec<3>& direction) {
+        for (std::size_t i = 0; i < ball_count_; ++i) {
+            const double along = x_[i] * direction.x + y_[i] * direction.y + z_[i] * direction.z;
+            const double half = std::sqrt(std::max(0.0, along * along - beyond_[i]));
+            from_[i] = along - half;
+            to_[i] = along + half;
+        }
+    }
+
+    double end_of_balls(double from, double step) const {
+        for (double end = from;;) {
+            double farther = end;
+            for (std::size_t i = 0; i < ball_count_; ++i) farther = std::max(farther, from_[i] < end ? to_[i] : end);
+            if (!(farther > end + step)) return farther;
+            end = farther;
+        }
+    }
+
+    /// A ball contains 0 and `limit * d` where dot(d, center) > min_along.
+    struct Cap {
+        std::uint32_t ball = 0;
+        double min_along = 0;
+    };
+
+    const PlacedSolid &a_, &b_;
+    // Balls: the centres, the radii, and the squared distances of 0 from the centres, less the squared radii.
+    std::array<double, max_balls> x_, y_, z_, radius_, beyond_;
+    std::size_t ball_count_ = 0;
+    std::array<double, max_balls> from_, to_;  ///< the spans; empty for a ball that the line misses
+    std::array<Cap, max_balls> caps_;
+    std::size_t cap_count_ = 0;
+    double limit_of_caps_ = 0;
+    std::array<Ball, max_pairs> around_pairs_;
+    std::array<TrianglePair, max_pairs> pairs_;
+    std::size_t pair_count_ = 0, next_pair_ = 0;
+    double min_distance_ = 0;
+};
+
+}  // namespace
+}  // namespace abut::detail
 
 namespace abut::detail {
 namespace {

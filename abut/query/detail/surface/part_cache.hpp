@@ -3,12 +3,30 @@
 // A cache of the parts of a composite shape near another shape, found once for many queries. For .cpp files.
 
 #include <abut/broad_phase/detail/box_overlaps.hpp>
-#include <abut/math/detail/uninitialized_array.hpp>
 #include <abut/query/detail/surface/closest_points.hpp>
 
 #include <bit>
+#include <cstddef>
+#include <new>
+#include <type_traits>
 
 namespace abut::detail {
+
+/// Elements are written before they are read. Constructing all elements would cost more than a query that needs few.
+template <class T, std::size_t N>
+class UninitializedArray {
+public:
+    static_assert(std::is_trivially_copyable_v<T>);
+
+    T* data() { return std::launder(reinterpret_cast<T*>(storage_)); }
+    const T* data() const { return std::launder(reinterpret_cast<const T*>(storage_)); }
+    T& operator[](std::size_t i) { return data()[i]; }
+    const T& operator[](std::size_t i) const { return data()[i]; }
+    static constexpr std::size_t size() { return N; }
+
+private:
+    alignas(T) std::byte storage_[N * sizeof(T)];
+};
 
 /// The cache lives on the stack and has capacity for the parts that an object of a tile's size touches. It stays empty
 /// if there are more, or if the shape creates its parts during a visit; then the shape is queried again.

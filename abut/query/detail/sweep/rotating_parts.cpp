@@ -1,5 +1,4 @@
 #include <abut/convex/bounding_ball.hpp>
-#include <abut/math/assert.hpp>
 #include <abut/query/detail/sdf/function_motion.hpp>
 #include <abut/query/detail/sweep/rotating.hpp>
 #include <abut/shape/view/mapped_box.hpp>
