@@ -1,6 +1,5 @@
 #include <abut/convex/bucket_sort.hpp>
 #include <abut/convex/hull/hull_assembly.hpp>
-#include <abut/convex/hull/hull_input.hpp>
 #include <abut/math/dvec.hpp>
 
 #include <algorithm>

@@ -37,31 +37,28 @@ struct DirectionMap {
 
     std::uint32_t cells() const { return 6 * rows * rows; }
     Vec3 local(const Vec3& point) const { return (point - center) * stretch; }
-    std::uint32_t cell(const Vec3& local) const;
-    DVec<3> corner(std::uint32_t face, std::uint32_t column, std::uint32_t row) const;
+    std::uint32_t cell(const Vec3& local) const {
+        const float x = std::abs(local.x), y = std::abs(local.y), z = std::abs(local.z);
+        const int up = x >= y && x >= z ? 0 : (y >= z ? 1 : 2);
+        const float largest_coordinate = std::max(std::max(x, y), std::max(z, std::numeric_limits<float>::min()));
+        const float half = 0.5f * static_cast<float>(rows);
+        const auto place = [&](int axis) {
+            return std::min(rows - 1, static_cast<std::uint32_t>(local[axis] / largest_coordinate * half + half));
+        };
+        const std::uint32_t face = 2 * static_cast<std::uint32_t>(up) + (local[up] < 0 ? 1 : 0);
+        return (face * rows + place((up + 1) % 3)) * rows + place((up + 2) % 3);
+    }
+
+    /// The direction to a corner of the cells of a face; 1 or -1 on the face's axis.
+    DVec<3> corner(std::uint32_t face, std::uint32_t column, std::uint32_t row) const {
+        const int up = static_cast<int>(face / 2);
+        DVec<3> result;
+        result[up] = face % 2 == 0 ? 1 : -1;
+        result[(up + 1) % 3] = 2.0 * column / rows - 1;
+        result[(up + 2) % 3] = 2.0 * row / rows - 1;
+        return result;
+    }
 };
-
-std::uint32_t DirectionMap::cell(const Vec3& local) const {
-    const float x = std::abs(local.x), y = std::abs(local.y), z = std::abs(local.z);
-    const int up = x >= y && x >= z ? 0 : (y >= z ? 1 : 2);
-    const float largest_coordinate = std::max(std::max(x, y), std::max(z, std::numeric_limits<float>::min()));
-    const float half = 0.5f * static_cast<float>(rows);
-    const auto place = [&](int axis) {
-        return std::min(rows - 1, static_cast<std::uint32_t>(local[axis] / largest_coordinate * half + half));
-    };
-    const std::uint32_t face = 2 * static_cast<std::uint32_t>(up) + (local[up] < 0 ? 1 : 0);
-    return (face * rows + place((up + 1) % 3)) * rows + place((up + 2) % 3);
-}
-
-/// The direction to a corner of the cells of a face; 1 or -1 on the face's axis.
-DVec<3> DirectionMap::corner(std::uint32_t face, std::uint32_t column, std::uint32_t row) const {
-    const int up = static_cast<int>(face / 2);
-    DVec<3> result;
-    result[up] = face % 2 == 0 ? 1 : -1;
-    result[(up + 1) % 3] = 2.0 * column / rows - 1;
-    result[(up + 2) % 3] = 2.0 * row / rows - 1;
-    return result;
-}
 
 /// The farthest point of each non-empty cell, in the order of the cells.
 std::vector<Vec3> farthest_points(std::span<const Vec3> points, const DirectionMap& map) {
@@ -86,55 +83,51 @@ std::vector<Vec3> farthest_points(std::span<const Vec3> points, const DirectionM
 class Body {
 public:
     /// Nothing if the hull of the points is so flat that the centre of the map is not well inside.
-    static std::optional<Body> around(std::span<const Vec3> points, DirectionMap& map);
+    static std::optional<Body> around(std::span<const Vec3> points, DirectionMap& map) {
+        const HullGrid grid = on_grid(points);
+        const Spread spread = spread_of(grid, min_thickness * (grid.tolerance / hull_tolerance));
+        if (spread.rank < 3) return std::nullopt;
+        Body result;
+        result.surface_ = quickhull(grid.points, spread.points, grid.tolerance);
+
+        DVec<3> sum(0.0);
+        for (const Vec3& point : points) sum += DVec<3>(point);
+        map.center = to_float(sum / static_cast<double>(points.size()));
+        for (const Vec3& point : points)
+            result.corners_.push_back((DVec<3>(point) - DVec<3>(map.center)) * DVec<3>(map.stretch));
+        for (std::size_t h = 0; h < result.surface_.origin.size(); h += 3) {
+            const DVec<3>& a = result.corners_[result.surface_.origin[h]];
+            const DVec<3>& b = result.corners_[result.surface_.origin[h + 1]];
+            const DVec<3>& c = result.corners_[result.surface_.origin[h + 2]];
+            const DVec<3> normal = cross(b - a, c - a);
+            if (!(dot(normal, a) > 0x1p-30 * length(normal))) return std::nullopt;
+        }
+        return result;
+    }
 
     /// An upper bound of the gauge along a direction, near the direction of the last call; infinity if none is found.
-    double gauge(const DVec<3>& direction);
+    double gauge(const DVec<3>& direction) {
+        for (std::size_t step = 0; step < surface_.normals.size(); ++step) {
+            const std::uint32_t h = 3 * triangle_;
+            const DVec<3>&a = corners_[surface_.origin[h]], &b = corners_[surface_.origin[h + 1]],
+                  &c = corners_[surface_.origin[h + 2]];
+            // These weights express the direction in the three corners, up to a common scale. If none is negative, the
+            // direction passes through the triangle.
+            const double weights[] = {dot(direction, cross(b, c)), dot(direction, cross(c, a)),
+                                      dot(direction, cross(a, b))};
+            const double* smallest = std::min_element(weights, weights + 3);
+            if (*smallest >= 0) return (weights[0] + weights[1] + weights[2]) / dot(a, cross(b, c));
+            const auto opposite = static_cast<std::uint32_t>((smallest - weights + 1) % 3);
+            triangle_ = surface_.twin[h + opposite] / 3;
+        }
+        return std::numeric_limits<double>::infinity();
+    }
 
 private:
     TriangleSurface surface_;
     std::vector<DVec<3>> corners_;  ///< one per point, in the map's coordinates
     std::uint32_t triangle_ = 0;
 };
-
-std::optional<Body> Body::around(std::span<const Vec3> points, DirectionMap& map) {
-    const HullGrid grid = on_grid(points);
-    const Spread spread = spread_of(grid, min_thickness * (grid.tolerance / hull_tolerance));
-    if (spread.rank < 3) return std::nullopt;
-    Body result;
-    result.surface_ = quickhull(grid.points, spread.points, grid.tolerance);
-
-    DVec<3> sum(0.0);
-    for (const Vec3& point : points) sum += DVec<3>(point);
-    map.center = to_float(sum / static_cast<double>(points.size()));
-    for (const Vec3& point : points)
-        result.corners_.push_back((DVec<3>(point) - DVec<3>(map.center)) * DVec<3>(map.stretch));
-    for (std::size_t h = 0; h < result.surface_.origin.size(); h += 3) {
-        const DVec<3>& a = result.corners_[result.surface_.origin[h]];
-        const DVec<3>& b = result.corners_[result.surface_.origin[h + 1]];
-        const DVec<3>& c = result.corners_[result.surface_.origin[h + 2]];
-        const DVec<3> normal = cross(b - a, c - a);
-        if (!(dot(normal, a) > 0x1p-30 * length(normal))) return std::nullopt;
-    }
-    return result;
-}
-
-double Body::gauge(const DVec<3>& direction) {
-    for (std::size_t step = 0; step < surface_.normals.size(); ++step) {
-        const std::uint32_t h = 3 * triangle_;
-        const DVec<3>&a = corners_[surface_.origin[h]], &b = corners_[surface_.origin[h + 1]],
-              &c = corners_[surface_.origin[h + 2]];
-        // These weights express the direction in the three corners, up to a common scale. If none is negative, the
-        // direction passes through the triangle.
-        const double weights[] = {dot(direction, cross(b, c)), dot(direction, cross(c, a)),
-                                  dot(direction, cross(a, b))};
-        const double* smallest = std::min_element(weights, weights + 3);
-        if (*smallest >= 0) return (weights[0] + weights[1] + weights[2]) / dot(a, cross(b, c));
-        const auto opposite = static_cast<std::uint32_t>((smallest - weights + 1) % 3);
-        triangle_ = surface_.twin[h + opposite] / 3;
-    }
-    return std::numeric_limits<double>::infinity();
-}
 
 /// The plane above the gauge of a cell, given at its corners in the order (0, 0), (0, 1), (1, 0), (1, 1).
 Vec3 plane_above(const std::array<double, 4>& gauge, const DVec<3>& low_corner, int up, double width) {

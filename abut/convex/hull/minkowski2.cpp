@@ -2,7 +2,6 @@
 
 #include <abut/convex/hull/minkowski.hpp>
 #include <abut/math/detail/expansion.hpp>
-#include <abut/math/dvec.hpp>
 
 namespace abut::detail {
 namespace {

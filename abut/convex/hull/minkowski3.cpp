@@ -45,54 +45,49 @@ public:
     const DVec<3>& corner(std::uint32_t i) const { return surface_.corners[i]; }
 
     /// The support points along n, to within the tolerance.
-    void farthest(const DVec<3>& n, std::vector<std::uint32_t>& result) const;
+    void farthest(const DVec<3>& n, std::vector<std::uint32_t>& result) const {
+        result.clear();
+        double maximum = -std::numeric_limits<double>::infinity();
+        for (const DVec<3>& corner : surface_.corners) maximum = std::max(maximum, dot(n, corner));
+        for (std::uint32_t i = 0; i < surface_.corners.size(); ++i)
+            if (dot(n, corner(i)) >= maximum - tolerance_) result.push_back(i);
+    }
 
 private:
-    double extent() const;
-    DVec<3> normal(std::span<const std::uint32_t> loop) const;
-    Arc arc(const FacetEdge& edge) const;
+    double extent() const {
+        double result = 0;
+        for (const DVec<3>& corner : surface_.corners) result = std::max(result, largest(corner - surface_.corners[0]));
+        return result;
+    }
+
+    /// From the corners (Newell), because the normals of `Facets` are rounded.
+    DVec<3> normal(std::span<const std::uint32_t> loop) const {
+        DVec<3> area(0.0);
+        const DVec<3>& origin = corner(loop[0]);
+        for (std::size_t i = 1; i + 1 < loop.size(); ++i)
+            area += cross(corner(loop[i]) - origin, corner(loop[i + 1]) - origin);
+        return normalized(surface_.mirrored ? -area : area);
+    }
+
+    Arc arc(const FacetEdge& edge) const {
+        const auto [left, right] =
+            surface_.mirrored ? std::pair(edge.right, edge.left) : std::pair(edge.left, edge.right);
+        Arc result;
+        result.from = edge.from;
+        result.to = edge.to;
+        result.along = normalized(corner(edge.to) - corner(edge.from));
+        result.left = normalized(cross(result.along, normals_[left]));
+        result.right = normalized(cross(normals_[right], result.along));
+        result.middle = normalized(normals_[left] + normals_[right] + result.left + result.right);
+        result.reach = std::max(length(normals_[left] - result.middle), length(normals_[right] - result.middle));
+        return result;
+    }
 
     const SummandSurface& surface_;
     double tolerance_;  ///< a smaller height difference counts as zero
     std::vector<DVec<3>> normals_;
     std::vector<Arc> arcs_;
 };
-
-double GaussMap::extent() const {
-    double result = 0;
-    for (const DVec<3>& corner : surface_.corners) result = std::max(result, largest(corner - surface_.corners[0]));
-    return result;
-}
-
-/// From the corners (Newell), because the normals of `Facets` are rounded.
-DVec<3> GaussMap::normal(std::span<const std::uint32_t> loop) const {
-    DVec<3> area(0.0);
-    const DVec<3>& origin = corner(loop[0]);
-    for (std::size_t i = 1; i + 1 < loop.size(); ++i)
-        area += cross(corner(loop[i]) - origin, corner(loop[i + 1]) - origin);
-    return normalized(surface_.mirrored ? -area : area);
-}
-
-Arc GaussMap::arc(const FacetEdge& edge) const {
-    const auto [left, right] = surface_.mirrored ? std::pair(edge.right, edge.left) : std::pair(edge.left, edge.right);
-    Arc result;
-    result.from = edge.from;
-    result.to = edge.to;
-    result.along = normalized(corner(edge.to) - corner(edge.from));
-    result.left = normalized(cross(result.along, normals_[left]));
-    result.right = normalized(cross(normals_[right], result.along));
-    result.middle = normalized(normals_[left] + normals_[right] + result.left + result.right);
-    result.reach = std::max(length(normals_[left] - result.middle), length(normals_[right] - result.middle));
-    return result;
-}
-
-void GaussMap::farthest(const DVec<3>& n, std::vector<std::uint32_t>& result) const {
-    result.clear();
-    double maximum = -std::numeric_limits<double>::infinity();
-    for (const DVec<3>& corner : surface_.corners) maximum = std::max(maximum, dot(n, corner));
-    for (std::uint32_t i = 0; i < surface_.corners.size(); ++i)
-        if (dot(n, corner(i)) >= maximum - tolerance_) result.push_back(i);
-}
 
 /// Corners that are coplanar orthogonal to n, as a convex loop in that plane.
 class FlatLoop {

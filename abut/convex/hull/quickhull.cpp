@@ -44,10 +44,77 @@ std::size_t level_of(double height) {
 
 class Quickhull {
 public:
-    Quickhull(std::span<const GridPoint> points, double tolerance);
+    Quickhull(std::span<const GridPoint> points, double tolerance)
+        : tolerance_(tolerance), leaving_(points.size(), no_index) {
+        entries_.reserve(points.size());
+        for (const GridPoint& point : points) entries_.push_back({glm::vec<3, std::int32_t>(point - points[0])});
+    }
 
-    void run(std::array<std::uint32_t, 4> start);
-    TriangleSurface surface() const;
+    void run(std::array<std::uint32_t, 4> start) {
+        // The first tetrahedron: a triangle with two sides, whose front the fourth point sees.
+        const GridPoint first = grid_place(start[0]);
+        if (grid_dot(grid_normal(first, grid_place(start[1]), grid_place(start[2])), grid_place(start[3]) - first) < 0)
+            std::swap(start[1], start[2]);
+        const std::uint32_t front = add_facet(start[0], start[1], start[2]);
+        const std::uint32_t back = add_facet(start[0], start[2], start[1]);
+        facets_[front].twin = {3 * back + 2, 3 * back + 1, 3 * back};
+        facets_[back].twin = {3 * front + 2, 3 * front + 1, 3 * front};
+        insert(start[3], front);
+        cone_.insert(cone_.begin(), back);
+        orphans_.resize(entries_.size());
+        std::iota(orphans_.begin(), orphans_.end(), 0u);
+        assign_orphans();
+
+        // Each iteration inserts a point or finishes a facet.
+        const auto next = [&] {
+            return std::find_if(queue_.begin(), queue_.end(), [](auto& t) { return !t.empty(); });
+        };
+        for (auto bucket = next(); bucket != queue_.end(); bucket = next()) {
+            const auto [facet, born] = bucket->back();
+            bucket->pop_back();
+            if (!alive(facet) || born_[facet] != born) continue;
+            const std::uint32_t eye = next_eye(facets_[facet]);
+            if (eye != no_index) insert(eye, facet);
+        }
+    }
+
+    TriangleSurface surface() const {
+        // In the lexicographical order of their corners, each from its lowest. The numbers don't depend on the order of
+        // insertion, and neighbours are near each other.
+        const auto lowest = [](const Facet& facet) {
+            return static_cast<std::uint32_t>(std::min_element(facet.corner.begin(), facet.corner.end()) -
+                                              facet.corner.begin());
+        };
+        const Buckets order = in_buckets(entries_.size(), [&](auto visit) {
+            for (std::uint32_t f = 0; f < facets_.size(); ++f) {
+                if (!alive(f)) continue;
+                const std::uint32_t first = lowest(facets_[f]);
+                visit(facets_[f].corner[first], std::uint64_t{facets_[f].corner[(first + 1) % 3]} << 32 | f);
+            }
+        });
+        std::vector<std::uint32_t> half_edge(3 * facets_.size());
+        for (std::uint32_t i = 0; i < order.keys.size(); ++i) {
+            const auto f = static_cast<std::uint32_t>(order.keys[i]);
+            const std::uint32_t first = lowest(facets_[f]);
+            for (std::uint32_t k = 0; k < 3; ++k) half_edge[3 * f + (first + k) % 3] = 3 * i + k;
+        }
+
+        TriangleSurface result;
+        result.origin.reserve(3 * order.keys.size());
+        result.twin.reserve(3 * order.keys.size());
+        result.normals.reserve(order.keys.size());
+        for (const std::uint64_t key : order.keys) {
+            const Facet& facet = facets_[static_cast<std::uint32_t>(key)];
+            const std::uint32_t first = lowest(facet);
+            for (std::uint32_t k = first; k < first + 3; ++k) {
+                result.origin.push_back(facet.corner[k % 3]);
+                result.twin.push_back(half_edge[facet.twin[k % 3]]);
+            }
+            result.normals.push_back(normal_of(facet));
+            result.left_out = std::max(result.left_out, farthest_left_out(facet));
+        }
+        return result;
+    }
 
 private:
     /// A point relative to the first, in the outside set of a facet.
@@ -68,7 +135,25 @@ private:
         std::uint32_t facet, born;
     };
 
-    std::uint32_t add_facet(std::uint32_t a, std::uint32_t b, std::uint32_t c);
+    std::uint32_t add_facet(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        std::uint32_t place = static_cast<std::uint32_t>(facets_.size());
+        if (free_.empty()) {
+            facets_.emplace_back();
+            born_.emplace_back();
+        } else {
+            place = free_.back();
+            free_.pop_back();
+        }
+        Facet& facet = facets_[place];
+        facet.corner = {a, b, c};
+        const DVec<3> normal(normal_of(facet));
+        facet.plane.normal = normal * (1 / length(normal));
+        facet.plane.offset = dot(facet.plane.normal, position(a));
+        facet.outside = facet.farthest = no_index;
+        born_[place] = births_++;
+        return place;
+    }
+
     bool alive(std::uint32_t facet) const { return facets_[facet].corner[0] != no_index; }
     GridPoint grid_place(std::uint32_t point) const { return GridPoint(entries_[point].place); }
     DVec<3> position(std::uint32_t point) const { return DVec<3>(entries_[point].place); }
@@ -78,16 +163,159 @@ private:
     double rounded_height(const Plane<3>& plane, std::uint32_t point) const {
         return dot(plane.normal, position(point)) - plane.offset;
     }
-    double exact_height(const Facet& facet, std::uint32_t point) const;
-    double height(const Facet& facet, std::uint32_t point) const;
-    double distance(const Facet& facet, std::uint32_t point) const;
-    double farthest_left_out(const Facet& facet) const;
-    std::uint32_t next_eye(const Facet& facet) const;
-    void see(std::uint32_t eye, std::uint32_t seen);
-    void raise_cone(std::uint32_t eye);
-    void take_orphans(std::uint32_t eye);
-    void assign_orphans();
-    void insert(std::uint32_t eye, std::uint32_t seen);
+    /// The sign is exact.
+    double exact_height(const Facet& facet, std::uint32_t point) const {
+        const GridPoint normal = normal_of(facet);
+        return grid_dot(normal, grid_place(point) - grid_place(facet.corner[0])) / length(DVec<3>(normal));
+    }
+
+    /// The height above the facet, in steps of the grid; its sign is exact.
+    double height(const Facet& facet, std::uint32_t point) const {
+        const double rounded = rounded_height(facet.plane, point);
+        return std::abs(rounded) > facet_rounding_error ? rounded : exact_height(facet, point);
+    }
+
+    /// The distance of a point above the facet from the triangle, not from its plane: beyond a sharp corner a point can
+    /// be low above every facet and still far from all of them.
+    double distance(const Facet& facet, std::uint32_t point) const {
+        const DVec<3> p = position(point);
+        bool over = true;
+        double to_edge_squared = std::numeric_limits<double>::infinity();
+        for (std::size_t i = 0; i < 3; ++i) {
+            const DVec<3> a = position(facet.corner[i]), b = position(facet.corner[(i + 1) % 3]);
+            over = over && dot(cross(facet.plane.normal, b - a), p - a) >= 0;
+            to_edge_squared = std::min(to_edge_squared, distance_squared_to_segment(p, a, b));
+        }
+        return over ? height(facet, point) : std::sqrt(to_edge_squared);
+    }
+
+    double farthest_left_out(const Facet& facet) const {
+        double result = 0;
+        for (std::uint32_t point = facet.outside; point != no_index; point = entries_[point].next_outside)
+            result = std::max(result, distance(facet, point));
+        return result;
+    }
+
+    /// The next point to insert above the facet; none if all are near enough to be left out. The hull only expands, so
+    /// they stay near enough.
+    std::uint32_t next_eye(const Facet& facet) const {
+        if (facet.outside == no_index || height(facet, facet.farthest) > tolerance_) return facet.farthest;
+        std::uint32_t result = no_index;
+        double max_height = 0;
+        for (std::uint32_t point = facet.outside; point != no_index; point = entries_[point].next_outside) {
+            const double above = height(facet, point);
+            if (above > max_height && distance(facet, point) > tolerance_) {
+                max_height = above;
+                result = point;
+            }
+        }
+        return result;
+    }
+
+    /// Finds the facets visible from the eye point, from one of them, and the horizon. Visibility is exact, so the
+    /// visible facets are connected without holes, and the horizon visits each of its points once.
+    void see(std::uint32_t eye, std::uint32_t seen) {
+        const auto take = [&](std::uint32_t facet) {
+            facets_[facet].corner[0] = no_index;
+            visible_.push_back(facet);
+        };
+        visible_.clear();
+        horizon_.clear();
+        take(seen);
+        for (std::size_t i = 0; i < visible_.size(); ++i) {
+            const std::array<std::uint32_t, 3> twins = facets_[visible_[i]].twin;
+            for (const std::uint32_t twin : twins) {
+                const std::uint32_t neighbor = twin / 3;
+                if (!alive(neighbor)) continue;
+                if (height(facets_[neighbor], eye) > 0)
+                    take(neighbor);
+                else
+                    horizon_.push_back(twin);
+            }
+        }
+    }
+
+    /// Adds a facet from the eye point to each horizon edge.
+    void raise_cone(std::uint32_t eye) {
+        cone_.clear();
+        for (const std::uint32_t behind : horizon_) {
+            const std::uint32_t from = origin(following(behind));
+            const std::uint32_t facet = add_facet(from, origin(behind), eye);
+            facets_[facet].twin[0] = behind;
+            facets_[behind / 3].twin[behind % 3] = 3 * facet;
+            leaving_[from] = facet;
+            cone_.push_back(facet);
+        }
+        for (const std::uint32_t facet : cone_) {
+            const std::uint32_t neighbor = leaving_[facets_[facet].corner[1]];
+            facets_[facet].twin[1] = 3 * neighbor + 2;
+            facets_[neighbor].twin[2] = 3 * facet + 1;
+        }
+    }
+
+    /// The points above the removed facets, without the eye point.
+    void take_orphans(std::uint32_t eye) {
+        orphans_.clear();
+        for (const std::uint32_t old : visible_) {
+            for (std::uint32_t point = facets_[old].outside; point != no_index; point = entries_[point].next_outside)
+                if (point != eye) orphans_.push_back(point);
+            free_.push_back(old);
+        }
+    }
+
+    /// Moves each orphan to the outside set of the new facet that it is highest above. An orphan above none of them is
+    /// inside.
+    void assign_orphans() {
+        const std::size_t count = orphans_.size(), capacity = count + highest_plane_padding;
+        if (count == 0) return;
+        if (max_heights_.size() < capacity)
+            for (std::vector<double>* column : {&orphan_[0], &orphan_[1], &orphan_[2], &max_heights_, &best_facets_})
+                column->resize(2 * capacity);
+        for (std::size_t k = 0; k < count; ++k) {
+            const DVec<3> orphan = position(orphans_[k]);
+            for (int i = 0; i < 3; ++i) orphan_[i][k] = orphan[i];
+        }
+        cone_planes_.clear();
+        for (const std::uint32_t facet : cone_) cone_planes_.push_back(facets_[facet].plane);
+        highest_planes(cone_planes_, {orphan_[0].data(), orphan_[1].data(), orphan_[2].data(), count},
+                       max_heights_.data(), best_facets_.data());
+
+        cone_height_.assign(cone_.size(), 0.0);
+        for (std::size_t k = 0; k < count; ++k) {
+            if (max_heights_[k] < -facet_rounding_error) continue;
+            auto best = static_cast<std::size_t>(best_facets_[k]);
+            double above = max_heights_[k];
+            if (above <= facet_rounding_error) {
+                above = 0;
+                for (std::size_t f = 0; f < cone_.size(); ++f) {
+                    const double here = height(facets_[cone_[f]], orphans_[k]);
+                    if (here <= above) continue;
+                    above = here;
+                    best = f;
+                }
+                if (above <= 0) continue;
+            }
+            Facet& facet = facets_[cone_[best]];
+            entries_[orphans_[k]].next_outside = facet.outside;
+            facet.outside = orphans_[k];
+            if (above > cone_height_[best]) {
+                cone_height_[best] = above;
+                facet.farthest = orphans_[k];
+            }
+        }
+        for (std::size_t f = 0; f < cone_.size(); ++f)
+            if (cone_height_[f] > 0) queue_[level_of(cone_height_[f])].push_back({cone_[f], born_[cone_[f]]});
+    }
+
+    /// Replaces the facets visible from the eye point, one of them known, by the cone from the eye point to the
+    /// horizon.
+    void insert(std::uint32_t eye, std::uint32_t seen) {
+        see(eye, seen);
+        take_orphans(eye);
+        raise_cone(eye);
+        assign_orphans();
+    }
+
     std::uint32_t origin(std::uint32_t half_edge) const { return facets_[half_edge / 3].corner[half_edge % 3]; }
 
     std::vector<PointEntry> entries_;  ///< one per point
@@ -108,247 +336,6 @@ private:
     std::vector<double> orphan_[3];                  ///< their coordinates,
     std::vector<double> max_heights_, best_facets_;  ///< the maximum height of each over the new facets, and its facet
 };
-
-Quickhull::Quickhull(std::span<const GridPoint> points, double tolerance)
-    : tolerance_(tolerance), leaving_(points.size(), no_index) {
-    entries_.reserve(points.size());
-    for (const GridPoint& point : points) entries_.push_back({glm::vec<3, std::int32_t>(point - points[0])});
-}
-
-std::uint32_t Quickhull::add_facet(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    std::uint32_t place = static_cast<std::uint32_t>(facets_.size());
-    if (free_.empty()) {
-        facets_.emplace_back();
-        born_.emplace_back();
-    } else {
-        place = free_.back();
-        free_.pop_back();
-    }
-    Facet& facet = facets_[place];
-    facet.corner = {a, b, c};
-    const DVec<3> normal(normal_of(facet));
-    facet.plane.normal = normal * (1 / length(normal));
-    facet.plane.offset = dot(facet.plane.normal, position(a));
-    facet.outside = facet.farthest = no_index;
-    born_[place] = births_++;
-    return place;
-}
-
-/// The sign is exact.
-double Quickhull::exact_height(const Facet& facet, std::uint32_t point) const {
-    const GridPoint normal = normal_of(facet);
-    return grid_dot(normal, grid_place(point) - grid_place(facet.corner[0])) / length(DVec<3>(normal));
-}
-
-/// The height above the facet, in steps of the grid; its sign is exact.
-double Quickhull::height(const Facet& facet, std::uint32_t point) const {
-    const double rounded = rounded_height(facet.plane, point);
-    return std::abs(rounded) > facet_rounding_error ? rounded : exact_height(facet, point);
-}
-
-/// The distance of a point above the facet from the triangle, not from its plane: beyond a sharp corner a point can be
-/// low above every facet and still far from all of them.
-double Quickhull::distance(const Facet& facet, std::uint32_t point) const {
-    const DVec<3> p = position(point);
-    bool over = true;
-    double to_edge_squared = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < 3; ++i) {
-        const DVec<3> a = position(facet.corner[i]), b = position(facet.corner[(i + 1) % 3]);
-        over = over && dot(cross(facet.plane.normal, b - a), p - a) >= 0;
-        to_edge_squared = std::min(to_edge_squared, distance_squared_to_segment(p, a, b));
-    }
-    return over ? height(facet, point) : std::sqrt(to_edge_squared);
-}
-
-/// The next point to insert above the facet; none if all are near enough to be left out. The hull only expands, so they
-/// stay near enough.
-std::uint32_t Quickhull::next_eye(const Facet& facet) const {
-    if (facet.outside == no_index || height(facet, facet.farthest) > tolerance_) return facet.farthest;
-    std::uint32_t result = no_index;
-    double max_height = 0;
-    for (std::uint32_t point = facet.outside; point != no_index; point = entries_[point].next_outside) {
-        const double above = height(facet, point);
-        if (above > max_height && distance(facet, point) > tolerance_) {
-            max_height = above;
-            result = point;
-        }
-    }
-    return result;
-}
-
-/// Finds the facets visible from the eye point, from one of them, and the horizon. Visibility is exact, so the visible
-/// facets are connected without holes, and the horizon visits each of its points once.
-void Quickhull::see(std::uint32_t eye, std::uint32_t seen) {
-    const auto take = [&](std::uint32_t facet) {
-        facets_[facet].corner[0] = no_index;
-        visible_.push_back(facet);
-    };
-    visible_.clear();
-    horizon_.clear();
-    take(seen);
-    for (std::size_t i = 0; i < visible_.size(); ++i) {
-        const std::array<std::uint32_t, 3> twins = facets_[visible_[i]].twin;
-        for (const std::uint32_t twin : twins) {
-            const std::uint32_t neighbor = twin / 3;
-            if (!alive(neighbor)) continue;
-            if (height(facets_[neighbor], eye) > 0)
-                take(neighbor);
-            else
-                horizon_.push_back(twin);
-        }
-    }
-}
-
-/// The points above the removed facets, without the eye point.
-void Quickhull::take_orphans(std::uint32_t eye) {
-    orphans_.clear();
-    for (const std::uint32_t old : visible_) {
-        for (std::uint32_t point = facets_[old].outside; point != no_index; point = entries_[point].next_outside)
-            if (point != eye) orphans_.push_back(point);
-        free_.push_back(old);
-    }
-}
-
-/// Adds a facet from the eye point to each horizon edge.
-void Quickhull::raise_cone(std::uint32_t eye) {
-    cone_.clear();
-    for (const std::uint32_t behind : horizon_) {
-        const std::uint32_t from = origin(following(behind));
-        const std::uint32_t facet = add_facet(from, origin(behind), eye);
-        facets_[facet].twin[0] = behind;
-        facets_[behind / 3].twin[behind % 3] = 3 * facet;
-        leaving_[from] = facet;
-        cone_.push_back(facet);
-    }
-    for (const std::uint32_t facet : cone_) {
-        const std::uint32_t neighbor = leaving_[facets_[facet].corner[1]];
-        facets_[facet].twin[1] = 3 * neighbor + 2;
-        facets_[neighbor].twin[2] = 3 * facet + 1;
-    }
-}
-
-/// Moves each orphan to the outside set of the new facet that it is highest above. An orphan above none of them is
-/// inside.
-void Quickhull::assign_orphans() {
-    const std::size_t count = orphans_.size(), capacity = count + highest_plane_padding;
-    if (count == 0) return;
-    if (max_heights_.size() < capacity)
-        for (std::vector<double>* column : {&orphan_[0], &orphan_[1], &orphan_[2], &max_heights_, &best_facets_})
-            column->resize(2 * capacity);
-    for (std::size_t k = 0; k < count; ++k) {
-        const DVec<3> orphan = position(orphans_[k]);
-        for (int i = 0; i < 3; ++i) orphan_[i][k] = orphan[i];
-    }
-    cone_planes_.clear();
-    for (const std::uint32_t facet : cone_) cone_planes_.push_back(facets_[facet].plane);
-    highest_planes(cone_planes_, {orphan_[0].data(), orphan_[1].data(), orphan_[2].data(), count}, max_heights_.data(),
-                   best_facets_.data());
-
-    cone_height_.assign(cone_.size(), 0.0);
-    for (std::size_t k = 0; k < count; ++k) {
-        if (max_heights_[k] < -facet_rounding_error) continue;
-        auto best = static_cast<std::size_t>(best_facets_[k]);
-        double above = max_heights_[k];
-        if (above <= facet_rounding_error) {
-            above = 0;
-            for (std::size_t f = 0; f < cone_.size(); ++f) {
-                const double here = height(facets_[cone_[f]], orphans_[k]);
-                if (here <= above) continue;
-                above = here;
-                best = f;
-            }
-            if (above <= 0) continue;
-        }
-        Facet& facet = facets_[cone_[best]];
-        entries_[orphans_[k]].next_outside = facet.outside;
-        facet.outside = orphans_[k];
-        if (above > cone_height_[best]) {
-            cone_height_[best] = above;
-            facet.farthest = orphans_[k];
-        }
-    }
-    for (std::size_t f = 0; f < cone_.size(); ++f)
-        if (cone_height_[f] > 0) queue_[level_of(cone_height_[f])].push_back({cone_[f], born_[cone_[f]]});
-}
-
-/// Replaces the facets visible from the eye point, one of them known, by the cone from the eye point to the horizon.
-void Quickhull::insert(std::uint32_t eye, std::uint32_t seen) {
-    see(eye, seen);
-    take_orphans(eye);
-    raise_cone(eye);
-    assign_orphans();
-}
-
-void Quickhull::run(std::array<std::uint32_t, 4> start) {
-    // The first tetrahedron: a triangle with two sides, whose front the fourth point sees.
-    const GridPoint first = grid_place(start[0]);
-    if (grid_dot(grid_normal(first, grid_place(start[1]), grid_place(start[2])), grid_place(start[3]) - first) < 0)
-        std::swap(start[1], start[2]);
-    const std::uint32_t front = add_facet(start[0], start[1], start[2]);
-    const std::uint32_t back = add_facet(start[0], start[2], start[1]);
-    facets_[front].twin = {3 * back + 2, 3 * back + 1, 3 * back};
-    facets_[back].twin = {3 * front + 2, 3 * front + 1, 3 * front};
-    insert(start[3], front);
-    cone_.insert(cone_.begin(), back);
-    orphans_.resize(entries_.size());
-    std::iota(orphans_.begin(), orphans_.end(), 0u);
-    assign_orphans();
-
-    // Each iteration inserts a point or finishes a facet.
-    const auto next = [&] { return std::find_if(queue_.begin(), queue_.end(), [](auto& t) { return !t.empty(); }); };
-    for (auto bucket = next(); bucket != queue_.end(); bucket = next()) {
-        const auto [facet, born] = bucket->back();
-        bucket->pop_back();
-        if (!alive(facet) || born_[facet] != born) continue;
-        const std::uint32_t eye = next_eye(facets_[facet]);
-        if (eye != no_index) insert(eye, facet);
-    }
-}
-
-double Quickhull::farthest_left_out(const Facet& facet) const {
-    double result = 0;
-    for (std::uint32_t point = facet.outside; point != no_index; point = entries_[point].next_outside)
-        result = std::max(result, distance(facet, point));
-    return result;
-}
-
-TriangleSurface Quickhull::surface() const {
-    // In the lexicographical order of their corners, each from its lowest. The numbers don't depend on the order of
-    // insertion, and neighbours are near each other.
-    const auto lowest = [](const Facet& facet) {
-        return static_cast<std::uint32_t>(std::min_element(facet.corner.begin(), facet.corner.end()) -
-                                          facet.corner.begin());
-    };
-    const Buckets order = in_buckets(entries_.size(), [&](auto visit) {
-        for (std::uint32_t f = 0; f < facets_.size(); ++f) {
-            if (!alive(f)) continue;
-            const std::uint32_t first = lowest(facets_[f]);
-            visit(facets_[f].corner[first], std::uint64_t{facets_[f].corner[(first + 1) % 3]} << 32 | f);
-        }
-    });
-    std::vector<std::uint32_t> half_edge(3 * facets_.size());
-    for (std::uint32_t i = 0; i < order.keys.size(); ++i) {
-        const auto f = static_cast<std::uint32_t>(order.keys[i]);
-        const std::uint32_t first = lowest(facets_[f]);
-        for (std::uint32_t k = 0; k < 3; ++k) half_edge[3 * f + (first + k) % 3] = 3 * i + k;
-    }
-
-    TriangleSurface result;
-    result.origin.reserve(3 * order.keys.size());
-    result.twin.reserve(3 * order.keys.size());
-    result.normals.reserve(order.keys.size());
-    for (const std::uint64_t key : order.keys) {
-        const Facet& facet = facets_[static_cast<std::uint32_t>(key)];
-        const std::uint32_t first = lowest(facet);
-        for (std::uint32_t k = first; k < first + 3; ++k) {
-            result.origin.push_back(facet.corner[k % 3]);
-            result.twin.push_back(half_edge[facet.twin[k % 3]]);
-        }
-        result.normals.push_back(normal_of(facet));
-        result.left_out = std::max(result.left_out, farthest_left_out(facet));
-    }
-    return result;
-}
 
 }  // namespace
 

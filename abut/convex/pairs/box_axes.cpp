@@ -1,8 +1,6 @@
 #include <abut/convex/pairs/box_axes.hpp>
 #include <abut/math/simd/double2-inl.h>
 
-#include <limits>
-
 namespace abut::detail {
 namespace {
 

@@ -47,17 +47,131 @@ public:
         }
     }
 
-    void simplify(std::size_t count);
-    void tighten();
-    Loop2 corners() const;
+    /// Removes lines until `count` are left, or none of them has neighbours that intersect beyond it.
+    void simplify(std::size_t count) {
+        for (std::uint32_t i = 0; i < lines_.size(); ++i) push(i);
+        while (count_ > count && !cheapest_.empty()) {
+            const auto [cost, line] = cheapest_.top();
+            cheapest_.pop();
+            Line& gone = lines_[line];
+            if (!gone.alive || gone.cost != cost) continue;
+            lines_[gone.after].start = *apex_over(line);
+            gone.alive = false;
+            lines_[gone.before].after = gone.after;
+            lines_[gone.after].before = gone.before;
+            --count_;
+            for (const std::uint32_t changed :
+                 {gone.before, gone.after, lines_[gone.before].before, lines_[gone.after].after})
+                push(changed);
+        }
+    }
+
+    void tighten() {
+        for (int round = 0; round < max_tightenings; ++round) {
+            double gain = 0, size = 0;
+            const std::uint32_t first = some_line();
+            std::uint32_t line = first;
+            do {
+                gain += put_best(line);
+                size = std::max(size, length_squared(lines_[line].start - lines_[first].start));
+                line = lines_[line].after;
+            } while (line != first);
+            if (!(gain > 1e-6 * size)) return;
+        }
+    }
+
+    Loop2 corners() const {
+        Loop2 result;
+        const std::uint32_t first = some_line();
+        std::uint32_t line = first;
+        do {
+            result.push_back(lines_[line].start);
+            line = lines_[line].after;
+        } while (line != first);
+        return result;
+    }
+
     std::size_t count() const { return count_; }
 
 private:
     std::uint32_t next(std::uint32_t i) const { return i + 1 == inner_.size() ? 0 : i + 1; }
-    std::uint32_t some_line() const;
-    std::optional<DVec<2>> apex_over(std::uint32_t line) const;
-    void push(std::uint32_t line);
-    double put_best(std::uint32_t line);
+    std::uint32_t some_line() const {
+        std::uint32_t result = 0;
+        while (!lines_[result].alive) ++result;
+        return result;
+    }
+
+    /// The intersection of a line's neighbours beyond it; nothing if there is none.
+    std::optional<DVec<2>> apex_over(std::uint32_t line) const {
+        const Line &before = lines_[lines_[line].before], &after = lines_[lines_[line].after];
+        const DVec<2>&a = lines_[line].start, &b = after.start;
+        const double turn = cross(before.direction, after.direction);
+        const double rise = cross(b - a, after.direction);
+        // If all three are equal but for rounding, any point will do.
+        if (std::abs(turn) < 1e-14 && dot(before.direction, after.direction) > 0) return (a + b) * 0.5;
+        if (!(turn > 1e-9) && !(dot(before.direction, after.direction) > 0 && turn > 0)) return std::nullopt;
+        return a + before.direction * std::max(0.0, rise / turn);
+    }
+
+    void push(std::uint32_t line) {
+        const std::optional<DVec<2>> apex = apex_over(line);
+        const DVec<2>&a = lines_[line].start, &b = lines_[lines_[line].after].start;
+        lines_[line].cost = apex ? std::abs(cross(*apex - a, b - a)) : -1;
+        if (apex) cheapest_.push({lines_[line].cost, line});
+    }
+
+    /// Moves a line between its neighbours to the minimum area, and returns the gain.
+    double put_best(std::uint32_t line) {
+        Line& here = lines_[line];
+        Line &before = lines_[here.before], &after = lines_[here.after];
+        const double turn = cross(before.direction, after.direction);
+        if (std::abs(turn) < 1e-9) return 0;
+        const DVec<2> apex =
+            before.start + before.direction * (cross(after.start - before.start, after.direction) / turn);
+
+        // The line rolls along the inner loop until it touches with its midpoint, in an edge or a corner.
+        const auto size = static_cast<std::uint32_t>(inner_.size());
+        std::uint32_t low = before.last, high = low + (after.first + size - low) % size;
+        Line best;
+        DVec<2> to(0.0);
+        bool found = false;
+        while (low < high && !found) {
+            const std::uint32_t middle = low + (high - low) / 2, edge = middle % size;
+            const DVec<2>& origin = inner_[edge];
+            const DVec<2> along = inner_[next(edge)] - origin;
+            const double in = cross(before.direction, along), out = cross(along, after.direction);
+            best.start = before.start + before.direction * (cross(origin - before.start, along) / in);
+            to = origin + along * (cross(after.start - origin, after.direction) / out);
+            best.first = edge;
+            best.last = next(edge);
+            const double reach = dot((best.start + to) * 0.5 - origin, along);
+            if (!(in > 0) || (out > 0 && reach < 0))
+                high = middle;
+            else if (!(out > 0) || reach > length_squared(along))
+                low = middle + 1;
+            else
+                found = true;
+        }
+        if (!found) {
+            best.first = best.last = low % size;
+            const DVec<2>&previous = inner_[(low + size - 1) % size], &at = inner_[low % size];
+            const DVec<2> seen = at - apex;  // before.direction x + after.direction y
+            const double x = cross(seen, after.direction) / turn, y = cross(before.direction, seen) / turn;
+            best.start = apex + before.direction * (2 * x);
+            to = apex + after.direction * (2 * y);
+            if (best.start == to || !(cross(at - previous, to - best.start) >= 0) ||
+                !(cross(to - best.start, inner_[next(best.last)] - at) >= 0))
+                return 0;
+        }
+        const double gain = cross(here.start - apex, after.start - apex) - cross(best.start - apex, to - apex);
+        if (!(gain > 0)) return 0;
+        here.direction = normalized(to - best.start);
+        here.start = best.start;
+        here.first = best.first;
+        here.last = best.last;
+        after.start = to;
+        return gain;
+    }
 
     std::span<const DVec<2>> inner_;
     std::vector<Line> lines_;
@@ -65,127 +179,6 @@ private:
     using Removal = std::pair<double, std::uint32_t>;  ///< the cost of a line, and its number
     std::priority_queue<Removal, std::vector<Removal>, std::greater<>> cheapest_;
 };
-
-std::uint32_t OuterPolygon::some_line() const {
-    std::uint32_t result = 0;
-    while (!lines_[result].alive) ++result;
-    return result;
-}
-
-/// The intersection of a line's neighbours beyond it; nothing if there is none.
-std::optional<DVec<2>> OuterPolygon::apex_over(std::uint32_t line) const {
-    const Line &before = lines_[lines_[line].before], &after = lines_[lines_[line].after];
-    const DVec<2>&a = lines_[line].start, &b = after.start;
-    const double turn = cross(before.direction, after.direction);
-    const double rise = cross(b - a, after.direction);
-    // If all three are equal but for rounding, any point will do.
-    if (std::abs(turn) < 1e-14 && dot(before.direction, after.direction) > 0) return (a + b) * 0.5;
-    if (!(turn > 1e-9) && !(dot(before.direction, after.direction) > 0 && turn > 0)) return std::nullopt;
-    return a + before.direction * std::max(0.0, rise / turn);
-}
-
-void OuterPolygon::push(std::uint32_t line) {
-    const std::optional<DVec<2>> apex = apex_over(line);
-    const DVec<2>&a = lines_[line].start, &b = lines_[lines_[line].after].start;
-    lines_[line].cost = apex ? std::abs(cross(*apex - a, b - a)) : -1;
-    if (apex) cheapest_.push({lines_[line].cost, line});
-}
-
-/// Removes lines until `count` are left, or none of them has neighbours that intersect beyond it.
-void OuterPolygon::simplify(std::size_t count) {
-    for (std::uint32_t i = 0; i < lines_.size(); ++i) push(i);
-    while (count_ > count && !cheapest_.empty()) {
-        const auto [cost, line] = cheapest_.top();
-        cheapest_.pop();
-        Line& gone = lines_[line];
-        if (!gone.alive || gone.cost != cost) continue;
-        lines_[gone.after].start = *apex_over(line);
-        gone.alive = false;
-        lines_[gone.before].after = gone.after;
-        lines_[gone.after].before = gone.before;
-        --count_;
-        for (const std::uint32_t changed :
-             {gone.before, gone.after, lines_[gone.before].before, lines_[gone.after].after})
-            push(changed);
-    }
-}
-
-/// Moves a line between its neighbours to the minimum area, and returns the gain.
-double OuterPolygon::put_best(std::uint32_t line) {
-    Line& here = lines_[line];
-    Line &before = lines_[here.before], &after = lines_[here.after];
-    const double turn = cross(before.direction, after.direction);
-    if (std::abs(turn) < 1e-9) return 0;
-    const DVec<2> apex = before.start + before.direction * (cross(after.start - before.start, after.direction) / turn);
-
-    // The line rolls along the inner loop until it touches with its midpoint, in an edge or a corner.
-    const auto size = static_cast<std::uint32_t>(inner_.size());
-    std::uint32_t low = before.last, high = low + (after.first + size - low) % size;
-    Line best;
-    DVec<2> to(0.0);
-    bool found = false;
-    while (low < high && !found) {
-        const std::uint32_t middle = low + (high - low) / 2, edge = middle % size;
-        const DVec<2>& origin = inner_[edge];
-        const DVec<2> along = inner_[next(edge)] - origin;
-        const double in = cross(before.direction, along), out = cross(along, after.direction);
-        best.start = before.start + before.direction * (cross(origin - before.start, along) / in);
-        to = origin + along * (cross(after.start - origin, after.direction) / out);
-        best.first = edge;
-        best.last = next(edge);
-        const double reach = dot((best.start + to) * 0.5 - origin, along);
-        if (!(in > 0) || (out > 0 && reach < 0))
-            high = middle;
-        else if (!(out > 0) || reach > length_squared(along))
-            low = middle + 1;
-        else
-            found = true;
-    }
-    if (!found) {
-        best.first = best.last = low % size;
-        const DVec<2>&previous = inner_[(low + size - 1) % size], &at = inner_[low % size];
-        const DVec<2> seen = at - apex;  // before.direction x + after.direction y
-        const double x = cross(seen, after.direction) / turn, y = cross(before.direction, seen) / turn;
-        best.start = apex + before.direction * (2 * x);
-        to = apex + after.direction * (2 * y);
-        if (best.start == to || !(cross(at - previous, to - best.start) >= 0) ||
-            !(cross(to - best.start, inner_[next(best.last)] - at) >= 0))
-            return 0;
-    }
-    const double gain = cross(here.start - apex, after.start - apex) - cross(best.start - apex, to - apex);
-    if (!(gain > 0)) return 0;
-    here.direction = normalized(to - best.start);
-    here.start = best.start;
-    here.first = best.first;
-    here.last = best.last;
-    after.start = to;
-    return gain;
-}
-
-void OuterPolygon::tighten() {
-    for (int round = 0; round < max_tightenings; ++round) {
-        double gain = 0, size = 0;
-        const std::uint32_t first = some_line();
-        std::uint32_t line = first;
-        do {
-            gain += put_best(line);
-            size = std::max(size, length_squared(lines_[line].start - lines_[first].start));
-            line = lines_[line].after;
-        } while (line != first);
-        if (!(gain > 1e-6 * size)) return;
-    }
-}
-
-Loop2 OuterPolygon::corners() const {
-    Loop2 result;
-    const std::uint32_t first = some_line();
-    std::uint32_t line = first;
-    do {
-        result.push_back(lines_[line].start);
-        line = lines_[line].after;
-    } while (line != first);
-    return result;
-}
 
 /// The corners whose edges have directions, and different ones, beyond rounding.
 Loop2 distinct_corners(std::span<const DVec<2>> loop) {
