@@ -7,7 +7,6 @@
 #include <abut/world/world.hpp>
 
 #include <algorithm>
-#include <cmath>
 
 #include <hwy/cache_control.h>
 

@@ -5,8 +5,6 @@
 #include <abut/query/sweep.hpp>
 #include <abut/world/world.hpp>
 
-#include <algorithm>
-
 namespace abut {
 
 /// Whether the item moved and has a box at both ends of its motion.

@@ -1,6 +1,5 @@
 // Queries for the nearest items of a world. The broad phases visit the items front to back.
 
-#include <abut/broad_phase/boxes.hpp>
 #include <abut/query/detail/valid_query.hpp>
 #include <abut/world/world.hpp>
 

@@ -2,7 +2,6 @@
 // the numbers of slots, free slots, motions, rare filters, touching pairs, touching pairs with a removed item, and
 // passed pairs; these lists in this order, each item in the order of its slot; and a checksum of 64 bits.
 
-#include <abut/broad_phase/boxes.hpp>
 #include <abut/math/detail/blob.hpp>
 #include <abut/shape/detail/content_hash.hpp>
 #include <abut/world/world.hpp>

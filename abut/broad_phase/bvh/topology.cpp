@@ -1,7 +1,5 @@
 #include <abut/broad_phase/boxes.hpp>
-#include <abut/broad_phase/bvh/surface_area.hpp>
 #include <abut/broad_phase/bvh/topology.hpp>
-#include <abut/math/simd/library_entry.hpp>
 
 #include <algorithm>
 #include <utility>

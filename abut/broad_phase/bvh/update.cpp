@@ -8,7 +8,6 @@
 #include <abut/broad_phase/detail/parallel.hpp>
 #include <abut/math/assert.hpp>
 
-#include <algorithm>
 
 #include <hwy/cache_control.h>
 

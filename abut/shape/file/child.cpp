@@ -5,7 +5,6 @@
 #include <abut/shape/file/blob.hpp>
 #include <abut/shape/file/child.hpp>
 #include <abut/shape/file/hull.hpp>
-#include <abut/shape/mesh/surface.hpp>
 
 #include <algorithm>
 #include <cmath>

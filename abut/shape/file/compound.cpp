@@ -4,14 +4,12 @@
 // child has a kind of its own.
 
 #include <abut/broad_phase/bvh/topology.hpp>
-#include <abut/math/detail/no_index.hpp>
 #include <abut/math/simd/library_entry.hpp>
 #include <abut/shape/detail/compound_data.hpp>
 #include <abut/shape/file.hpp>
 #include <abut/shape/file/blob.hpp>
 #include <abut/shape/file/child.hpp>
 
-#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>

@@ -9,8 +9,6 @@
 #include <abut/shape/file/hull.hpp>
 #include <abut/shape/solid_bsp/parts.hpp>
 
-#include <array>
-#include <cmath>
 #include <limits>
 
 namespace abut::detail {

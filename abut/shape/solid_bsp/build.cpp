@@ -1,7 +1,6 @@
 #include <abut/shape/solid_bsp/tree.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 

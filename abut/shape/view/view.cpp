@@ -1,4 +1,3 @@
-#include <abut/math/assert.hpp>
 #include <abut/shape/view/mapped_box.hpp>
 #include <abut/shape/view/view.hpp>
 

@@ -1,7 +1,6 @@
 // The contacts of pairs, without ghost collisions at the internal edges between items: an item gets the surface normals
 // of the union of all that it touches (docs/ghosts.md).
 
-#include <abut/broad_phase/boxes.hpp>
 #include <abut/query/contact.hpp>
 #include <abut/world/detail/pair_tests.hpp>
 

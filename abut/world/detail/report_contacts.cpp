@@ -5,7 +5,6 @@
 #include <abut/world/world.hpp>
 
 #include <algorithm>
-#include <utility>
 
 namespace abut {
 
