@@ -266,10 +266,6 @@ ShortestPush<D> shortest_push(const Convex<D>& shape, const World<D>& world, con
 }
 
 }  // namespace
-}  // namespace abut::detail
-
-namespace abut::detail {
-
 template <int D>
 Depenetration<D> depenetrate_convex(const Convex<D>& shape, const World<D>& world, const Filter& filter) {
     detail::enter_library();

@@ -161,12 +161,6 @@ std::vector<HullColumn> hull_columns(std::span<const Vec2> points) {
     return result;
 }
 
-}  // namespace
-}  // namespace abut::detail
-
-namespace abut::detail {
-namespace {
-
 /// Twice the area of the triangle abc, in double.
 double area(const Vec2& a, const Vec2& b, const Vec2& c) {
     return cross(DVec<2>(b) - DVec<2>(a), DVec<2>(c) - DVec<2>(a));

@@ -107,10 +107,6 @@ bool manifold_of_boxes(const PlacedBox& a, const PlacedBox& b, const BoxFrame& f
 }
 
 }  // namespace
-}  // namespace abut::detail
-
-namespace abut::detail {
-
 bool still_separated(const PlacedBox& a, const PlacedBox& b, double reach, const Cache& cache) {
     using namespace lanes;
     if (reach < 0) return false;

@@ -94,12 +94,6 @@ double distance_to_surface(const Convex<D>& shape, const DistanceFunction<D>& fu
     return found ? hit.along : std::numeric_limits<double>::infinity();
 }
 
-}  // namespace
-}  // namespace abut::detail
-
-namespace abut::detail {
-namespace {
-
 /// A shape deeper behind a one-sided front than this part of its size is passing through. A shallower one stands on it,
 /// such as on a rising platform.
 constexpr double pass_through_depth = 0.05;

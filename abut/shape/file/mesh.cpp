@@ -187,10 +187,6 @@ MeshFault fault_of(const MeshSurface& surface, const Aabb3& exact) {
 }
 
 }  // namespace
-}  // namespace abut::detail
-
-namespace abut::detail {
-
 template <>
 struct BlobScalar<std::array<std::uint32_t, 3>> {
     using type = std::uint32_t;

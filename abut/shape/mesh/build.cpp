@@ -261,16 +261,14 @@ private:
     std::array<std::uint32_t, 3 * max_small_set> vertices_;  ///< point indices
 };
 
+}  // namespace
+
 void set_sizes(MeshLeaf& leaf) {
     leaf.extent = extent_of(leaf);
     // The second term also covers the rounding of the first.
     leaf.min_area = 4e-3f * std::sqrt(largest_squared_area(leaf)) + 1.1e-5f * leaf.extent * leaf.extent;
 }
 
-}  // namespace
-}  // namespace abut::detail
-
-namespace abut::detail {
 namespace {
 
 /// A node of the binary tree that is built first, with the costs of its collapse into nodes of eight children.

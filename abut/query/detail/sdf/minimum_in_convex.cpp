@@ -125,12 +125,6 @@ EnvelopeBound<D> envelope_bound(const std::array<DVec<D>, static_cast<std::size_
     return result;
 }
 
-}  // namespace
-}  // namespace abut::detail
-
-namespace abut::detail {
-namespace {
-
 /// At the limit on fine boxes the minimum may be lower by this fraction of the size.
 constexpr double coarse_tolerance = 1e-5;
 

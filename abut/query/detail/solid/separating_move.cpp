@@ -219,12 +219,6 @@ private:
     double min_distance_ = 0;
 };
 
-}  // namespace
-}  // namespace abut::detail
-
-namespace abut::detail {
-namespace {
-
 double extent_of(const Aabb3& box) {
     return length(DVec<3>(box.max) - DVec<3>(box.min));
 }

@@ -12,11 +12,6 @@
 namespace abut::detail {
 namespace {
 
-/// An interval of time.
-struct TimeSpan {
-    double from, until;
-};
-
 /// Proofs of contact for a pair of parts of RotatingSweep.
 template <int D, class Pair>
 class ContactInterval {
@@ -29,12 +24,12 @@ public:
     /// The time until which the gap certainly stays within the tolerance, at most the end of the span. `distance` is
     /// that at the start, and less.
     double until(const TimeSpan& span, double distance) {
-        const double gap = pair_.tolerance - distance, duration = span.until - span.from;
+        const double gap = pair_.tolerance - distance, duration = span.to - span.from;
         // The bound by the maximum speed.
-        if (gap >= speed_ * duration) return span.until;
+        if (gap >= speed_ * duration) return span.to;
         const double slow = span.from + gap / speed_;
         if (distance > min_gap_ * pair_.tolerance) return slow;
-        double end = span.until;
+        double end = span.to;
         for (int attempt = 0; attempt < max_attempts && end > slow; ++attempt) {
             SignedDistance<D> at_end = pair_.distance(end);
             if (at_end.distance > max_gap_ * pair_.tolerance) end = separation_time({span.from, end}, distance, at_end);
@@ -60,7 +55,7 @@ private:
     /// Moves `at_end` from the end of the span to that time.
     double separation_time(const TimeSpan& span, double first, SignedDistance<D>& at_end) {
         const double aim = 0.5 * (min_gap_ + max_gap_) * pair_.tolerance;
-        double low = span.from, high = span.until, below = first - aim, above = at_end.distance - aim;
+        double low = span.from, high = span.to, below = first - aim, above = at_end.distance - aim;
         int side = 0;
         for (int iteration = 0; iteration < max_iterations; ++iteration) {
             const double time = std::clamp(low + (high - low) * (below / (below - above)), low, high);
@@ -86,7 +81,7 @@ private:
     /// Proves contact by a common point at the end of the span: the closest points, or points near the centres.
     bool is_proven(const TimeSpan& span, const SignedDistance<D>& at_end) {
         if (!(at_end.distance <= pair_.tolerance)) return false;
-        pair_.go_to(span.until);
+        pair_.go_to(span.to);
         const DVec<D> of_a = nearest_place(pair_.here_a(), pair_.here_b()),
                       of_b = nearest_place(pair_.here_b(), pair_.here_a());
         for (const DVec<D>& point : {at_end.on_a, of_a})
@@ -109,13 +104,13 @@ private:
             else
                 return pair_.tolerance - outside_of(pair_.here_b(), position);
         };
-        const double last = gap_at(span.until, point);
+        const double last = gap_at(span.to, point);
         if (!(last >= 0)) return false;
-        const Affine<D> place = place_at(path, span.until);
+        const Affine<D> place = place_at(path, span.to);
         const DVec<D> own = place.transposed(point - place.offset);
         const double first = gap_at(span.from, place_at(path, span.from).point(own));
         if (!(first >= 0)) return false;
-        const double time = span.until - span.from, root_sum = std::sqrt(first) + std::sqrt(last);
+        const double time = span.to - span.from, root_sum = std::sqrt(first) + std::sqrt(last);
         return 0.5 * relative_motion_bounds(path, frame, length(own)).acceleration * time * time <= root_sum * root_sum;
     }
 
@@ -139,12 +134,6 @@ private:
     Pair& pair_;
     double speed_;  ///< an upper bound of the speed of separation
 };
-
-}  // namespace
-}  // namespace abut::detail
-
-namespace abut::detail {
-namespace {
 
 /// From this iteration on, each one tries all axes.
 constexpr int fast_iterations = 4;

@@ -7,6 +7,11 @@
 
 namespace abut::detail {
 
+/// A span of the motion's time.
+struct TimeSpan {
+    double from = 0, to = 1;
+};
+
 /// Like `Hit`, in the frame of the paths.
 template <int D>
 struct RotatingImpact {

@@ -14,11 +14,6 @@ namespace {
 /// order of the parts has no influence.
 constexpr int time_spans = 16;
 
-/// A span of the motion's time.
-struct TimeSpan {
-    double from = 0, to = 1;
-};
-
 /// A moving ball in the frame of another path. Between two times h apart its centre x is within |x''| h^2 / 8 of the
 /// chord.
 template <int D>
