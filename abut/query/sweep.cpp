@@ -6,7 +6,6 @@
 #include <abut/query/detail/solid/solid_queries.hpp>
 #include <abut/query/detail/surface/hit_normal.hpp>
 #include <abut/query/detail/sweep/linear.hpp>
-#include <abut/query/detail/sweep/linear_unfiltered.hpp>
 #include <abut/query/detail/sweep/rotating.hpp>
 #include <abut/query/detail/valid_query.hpp>
 #include <abut/query/sweep.hpp>
@@ -103,14 +102,6 @@ std::optional<Hit<D>> hit_on_paths(const Shape& a, RigidPath<D>& path_a, const S
 }
 
 template <int D>
-std::optional<Hit<D>> sweep_paths(const Convex<D>& a, RigidPath<D> path_a, const Convex<D>& b, RigidPath<D> path_b,
-                                  const QueryOptions<D>& options) {
-    return hit_on_paths(a, path_a, b, path_b, [&](RotatingImpact<D>& impact) {
-        return time_of_impact<D>(a, path_a, b, path_b, {}, {options.cache, options.trace}, impact);
-    });
-}
-
-template <int D>
 std::optional<Hit<D>> sweep_part_paths(const View<D>& a, RigidPath<D> path_a, const View<D>& b, RigidPath<D> path_b,
                                        const QueryOptions<D>& options) {
     RotatingImpact<D> first;
@@ -148,15 +139,6 @@ std::optional<Hit<3>> sweep_solid(const View<3>& a, const RigidPath<3>& path_a, 
     const double max_speed = relative_motion_bounds(path_a, path_b, reach_of(bounds(a))).speed;
     return detail::sweep_solid(moved(a, path_a.start), moved(b, path_b.start), max_speed,
                                length(path_a.move - path_b.move), closest_at, closing, surface_hit);
-}
-
-template <int D>
-std::optional<Hit<D>> sweep_paths(const View<D>& a, const RigidPath<D>& path_a, const View<D>& b,
-                                  const RigidPath<D>& path_b, const QueryOptions<D>& options) {
-    if constexpr (D == 3)
-        if (has_solid(a, b) && detail::is_valid_pair(a, b, path_a, path_b))
-            return sweep_solid(a, path_a, b, path_b, options);
-    return sweep_part_paths(a, path_a, b, path_b, options);
 }
 
 }  // namespace
@@ -253,54 +235,42 @@ std::optional<Hit<D>> detail::sweep_unfiltered(const View<D>& a, const Vec<D>& m
 }
 
 template <int D>
-std::optional<Hit<D>> sweep(const Convex<D>& a, const Motion<D>& motion_a, const Convex<D>& b,
-                            const Motion<D>& motion_b, const QueryOptions<D>& options) {
-    return sweep_paths(a, rigid_path(motion_a), b, rigid_path(motion_b), options);
-}
-template <int D>
-std::optional<Hit<D>> sweep(const ShapeRef<D>& a, const Motion<D>& motion_a, const ShapeRef<D>& b,
-                            const Motion<D>& motion_b, const QueryOptions<D>& options) {
-    return sweep(convex_of(a), motion_a, convex_of(b), motion_b, options);
-}
-template <int D>
-std::optional<Hit<D>> sweep(const View<D>& a, const Motion<D>& motion_a, const View<D>& b, const Motion<D>& motion_b,
-                            const QueryOptions<D>& options) {
-    return sweep_paths(a, rigid_path(motion_a), b, rigid_path(motion_b), options);
+std::optional<Hit<D>> detail::sweep_paths(const Convex<D>& a, RigidPath<D> path_a, const Convex<D>& b,
+                                          RigidPath<D> path_b, const QueryOptions<D>& options) {
+    return hit_on_paths(a, path_a, b, path_b, [&](RotatingImpact<D>& impact) {
+        return time_of_impact<D>(a, path_a, b, path_b, {}, {options.cache, options.trace}, impact);
+    });
 }
 
 template <int D>
-std::optional<Hit<D>> sweep(const Convex<D>& a, const Pose<D>& from_a, const Pose<D>& to_a, const Convex<D>& b,
-                            const Pose<D>& from_b, const Pose<D>& to_b, const QueryOptions<D>& options) {
-    return sweep_paths(a, rigid_path(from_a, to_a), b, rigid_path(from_b, to_b), options);
-}
-template <int D>
-std::optional<Hit<D>> sweep(const ShapeRef<D>& a, const Pose<D>& from_a, const Pose<D>& to_a, const ShapeRef<D>& b,
-                            const Pose<D>& from_b, const Pose<D>& to_b, const QueryOptions<D>& options) {
-    return sweep(convex_of(a), from_a, to_a, convex_of(b), from_b, to_b, options);
-}
-template <int D>
-std::optional<Hit<D>> sweep(const View<D>& a, const Pose<D>& from_a, const Pose<D>& to_a, const View<D>& b,
-                            const Pose<D>& from_b, const Pose<D>& to_b, const QueryOptions<D>& options) {
-    return sweep_paths(a, rigid_path(from_a, to_a), b, rigid_path(from_b, to_b), options);
+std::optional<Hit<D>> detail::sweep_paths(const View<D>& a, const RigidPath<D>& path_a, const View<D>& b,
+                                          const RigidPath<D>& path_b, const QueryOptions<D>& options) {
+    if constexpr (D == 3)
+        if (has_solid(a, b) && detail::is_valid_pair(a, b, path_a, path_b))
+            return abut::sweep_solid(a, path_a, b, path_b, options);
+    return abut::sweep_part_paths(a, path_a, b, path_b, options);
 }
 
-#define ABUT_INSTANTIATE_FOR(D, S)                                                                           \
-    template std::optional<Hit<D>> sweep(const S&, const Motion<D>&, const S&, const Motion<D>&,             \
-                                         const QueryOptions<D>&);                                            \
-    template std::optional<Hit<D>> sweep(const S&, const Pose<D>&, const Pose<D>&, const S&, const Pose<D>&, \
-                                         const Pose<D>&, const QueryOptions<D>&);
-#define ABUT_INSTANTIATE(D)                                                                                 \
-    template std::optional<Hit<D>> detail::sweep_unfiltered(const View<D>&, const Vec<D>&, const View<D>&); \
-    template std::optional<Hit<D>> sweep(const View<D>&, const Vec<D>&, const View<D>&, const Vec<D>&,      \
-                                         const QueryOptions<D>&);                                           \
-    template std::optional<Hit<D>> sweep(const Convex<D>&, const Vec<D>&, const Convex<D>&, const Vec<D>&,  \
-                                         const QueryOptions<D>&);                                           \
-    ABUT_INSTANTIATE_FOR(D, View<D>)                                                                        \
-    ABUT_INSTANTIATE_FOR(D, Convex<D>)                                                                      \
-    ABUT_INSTANTIATE_FOR(D, ShapeRef<D>)
+template <int D>
+std::optional<Hit<D>> detail::sweep_paths(const ShapeRef<D>& a, const RigidPath<D>& path_a, const ShapeRef<D>& b,
+                                          const RigidPath<D>& path_b, const QueryOptions<D>& options) {
+    return sweep_paths(convex_of(a), path_a, convex_of(b), path_b, options);
+}
+
+#define ABUT_INSTANTIATE(D)                                                                                            \
+    template std::optional<Hit<D>> detail::sweep_unfiltered(const View<D>&, const Vec<D>&, const View<D>&);            \
+    template std::optional<Hit<D>> detail::sweep_paths(const View<D>&, const RigidPath<D>&, const View<D>&,            \
+                                                       const RigidPath<D>&, const QueryOptions<D>&);                   \
+    template std::optional<Hit<D>> detail::sweep_paths(const Convex<D>&, RigidPath<D>, const Convex<D>&, RigidPath<D>, \
+                                                       const QueryOptions<D>&);                                        \
+    template std::optional<Hit<D>> detail::sweep_paths(const ShapeRef<D>&, const RigidPath<D>&, const ShapeRef<D>&,    \
+                                                       const RigidPath<D>&, const QueryOptions<D>&);                   \
+    template std::optional<Hit<D>> sweep(const View<D>&, const Vec<D>&, const View<D>&, const Vec<D>&,                 \
+                                         const QueryOptions<D>&);                                                      \
+    template std::optional<Hit<D>> sweep(const Convex<D>&, const Vec<D>&, const Convex<D>&, const Vec<D>&,             \
+                                         const QueryOptions<D>&);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE
-#undef ABUT_INSTANTIATE_FOR
 
 }  // namespace abut

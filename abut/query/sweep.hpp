@@ -2,8 +2,7 @@
 
 // The first hit of two shapes that move straight (convex cast), or that move and rotate.
 
-#include <abut/math/motion.hpp>
-#include <abut/math/ray.hpp>
+#include <abut/math/detail/rigid_path.hpp>
 #include <abut/query/hit.hpp>
 #include <abut/query/options.hpp>
 #include <abut/shape/view/constraints.hpp>
@@ -22,26 +21,20 @@ template <int D>
 std::optional<Hit<D>> sweep(const detail::ShapeRef<D>& a, const Vec<D>& motion_a, const detail::ShapeRef<D>& b,
                             const Vec<D>& motion_b, const QueryOptions<D>& options = {});
 
+namespace detail {
+
+/// The sweep of two shapes that each follow a path.
 template <int D>
-std::optional<Hit<D>> sweep(const View<D>& a, const Motion<D>& motion_a, const View<D>& b, const Motion<D>& motion_b,
-                            const QueryOptions<D>& options = {});
+std::optional<Hit<D>> sweep_paths(const View<D>& a, const RigidPath<D>& path_a, const View<D>& b,
+                                  const RigidPath<D>& path_b, const QueryOptions<D>& options);
 template <int D>
-std::optional<Hit<D>> sweep(const detail::Convex<D>& a, const Motion<D>& motion_a, const detail::Convex<D>& b,
-                            const Motion<D>& motion_b, const QueryOptions<D>& options = {});
+std::optional<Hit<D>> sweep_paths(const Convex<D>& a, RigidPath<D> path_a, const Convex<D>& b, RigidPath<D> path_b,
+                                  const QueryOptions<D>& options);
 template <int D>
-std::optional<Hit<D>> sweep(const detail::ShapeRef<D>& a, const Motion<D>& motion_a, const detail::ShapeRef<D>& b,
-                            const Motion<D>& motion_b, const QueryOptions<D>& options = {});
-template <int D>
-std::optional<Hit<D>> sweep(const View<D>& a, const Pose<D>& from_a, const Pose<D>& to_a, const View<D>& b,
-                            const Pose<D>& from_b, const Pose<D>& to_b, const QueryOptions<D>& options = {});
-template <int D>
-std::optional<Hit<D>> sweep(const detail::Convex<D>& a, const Pose<D>& from_a, const Pose<D>& to_a,
-                            const detail::Convex<D>& b, const Pose<D>& from_b, const Pose<D>& to_b,
-                            const QueryOptions<D>& options = {});
-template <int D>
-std::optional<Hit<D>> sweep(const detail::ShapeRef<D>& a, const Pose<D>& from_a, const Pose<D>& to_a,
-                            const detail::ShapeRef<D>& b, const Pose<D>& from_b, const Pose<D>& to_b,
-                            const QueryOptions<D>& options = {});
+std::optional<Hit<D>> sweep_paths(const ShapeRef<D>& a, const RigidPath<D>& path_a, const ShapeRef<D>& b,
+                                  const RigidPath<D>& path_b, const QueryOptions<D>& options);
+
+}  // namespace detail
 
 /// The first hit of two shapes that both move straight, without rotation, in the same time.
 ///
@@ -90,8 +83,9 @@ template <class A, class B>
 requires Pair<A, B> std::optional<Hit<dimension<A>>> sweep(const A& a, const Motion<dimension<A>>& motion_a, const B& b,
                                                            const Motion<dimension<A>>& motion_b,
                                                            const QueryOptions<dimension<A>>& options = {}) {
-    return detail::with_views(a, b,
-                              [&](const auto& x, const auto& y) { return sweep(x, motion_a, y, motion_b, options); });
+    return detail::with_views(a, b, [&](const auto& x, const auto& y) {
+        return detail::sweep_paths(x, detail::rigid_path(motion_a), y, detail::rigid_path(motion_b), options);
+    });
 }
 
 /// The sweep against a shape B at rest.
@@ -113,8 +107,9 @@ requires Pair<A, B> std::optional<Hit<dimension<A>>> sweep(const A& a, const Pos
                                                            const Pose<dimension<A>>& from_b,
                                                            const Pose<dimension<A>>& to_b,
                                                            const QueryOptions<dimension<A>>& options = {}) {
-    return detail::with_views(
-        a, b, [&](const auto& x, const auto& y) { return sweep(x, from_a, to_a, y, from_b, to_b, options); });
+    return detail::with_views(a, b, [&](const auto& x, const auto& y) {
+        return detail::sweep_paths(x, detail::rigid_path(from_a, to_a), y, detail::rigid_path(from_b, to_b), options);
+    });
 }
 
 namespace detail {
