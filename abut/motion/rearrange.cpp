@@ -1,7 +1,6 @@
 #include <abut/math/assert.hpp>
 #include <abut/math/pose.hpp>
 #include <abut/math/simd/library_entry.hpp>
-#include <abut/motion/order/pair_tolerance.hpp>
 #include <abut/motion/order/projection.hpp>
 #include <abut/motion/rearrange.hpp>
 #include <abut/query/closest.hpp>

@@ -3,7 +3,6 @@
 #include <abut/convex/support.hpp>
 #include <abut/math/assert.hpp>
 #include <abut/math/simd/library_entry.hpp>
-#include <abut/motion/order/pair_tolerance.hpp>
 #include <abut/motion/order/projection.hpp>
 #include <abut/motion/removal_order.hpp>
 #include <abut/query/closest.hpp>

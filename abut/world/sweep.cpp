@@ -3,7 +3,6 @@
 #include <abut/broad_phase/boxes.hpp>
 #include <abut/broad_phase/reach.hpp>
 #include <abut/query/detail/surface/hit_normal.hpp>
-#include <abut/query/detail/sweep/linear_unfiltered.hpp>
 #include <abut/query/detail/valid_query.hpp>
 #include <abut/query/sweep.hpp>
 #include <abut/world/world.hpp>

@@ -1,7 +1,7 @@
 // Plans from one arrangement to another: every plan is executed step by step, with a check of all distances.
 
 #include "arrangements.hpp"
-#include <abut/motion/order/pair_tolerance.hpp>
+#include <abut/motion/order/projection.hpp>
 #include <abut/motion/rearrange.hpp>
 #include <abut/query/closest.hpp>
 

@@ -1,7 +1,6 @@
 // Disassembly orders: known answers, thousands of random arrangements, and cycles without an order.
 
 #include "arrangements.hpp"
-#include <abut/motion/order/pair_tolerance.hpp>
 #include <abut/motion/order/projection.hpp>
 #include <abut/motion/removal_order.hpp>
 #include <abut/query/closest.hpp>

@@ -8,7 +8,6 @@
 #include <abut/broad_phase/detail/parallel.hpp>
 #include <abut/math/assert.hpp>
 
-
 #include <hwy/cache_control.h>
 
 namespace abut::detail {

@@ -3,9 +3,17 @@
 // Projections of shapes along a direction, and the depth of their overlap. For .cpp files.
 
 #include <abut/convex/support.hpp>
+#include <abut/convex/tolerance.hpp>
 #include <abut/shape/polygon.hpp>
 
 namespace abut::detail {
+
+template <int D>
+double tolerance_for(const Convex<D>& a, const Convex<D>& b) {
+    const double size_a = size(a), size_b = size(b);
+    const double apart = largest(reference_point(b) - reference_point(a));
+    return tolerance_for(std::min(size_a, size_b), apart + size_a + size_b);
+}
 
 /// The projection of a 3D shape on a plane: a polygon with a radius, or a support function. Refers to the shape.
 class Projection {

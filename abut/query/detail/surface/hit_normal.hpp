@@ -5,8 +5,16 @@
 #include <abut/math/detail/rigid_path.hpp>
 #include <abut/query/detail/surface/edge_filter.hpp>
 #include <abut/query/hit.hpp>
+#include <abut/shape/view/view.hpp>
+
+#include <optional>
 
 namespace abut::detail {
+
+/// Like abut::sweep against a shape at rest. The normal is that of the part that was hit, which may be one of an
+/// internal edge, except between solids.
+template <int D>
+std::optional<Hit<D>> sweep_unfiltered(const View<D>& a, const Vec<D>& motion, const View<D>& b);
 
 /// A moving shape at the moment of its hit.
 template <int D>

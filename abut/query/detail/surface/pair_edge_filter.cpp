@@ -1,4 +1,4 @@
-#include <abut/query/detail/surface/pair_edge_filter.hpp>
+#include <abut/query/detail/surface/surface_contacts.hpp>
 #include <abut/query/detail/surface/surface_manifold.hpp>
 
 namespace abut::detail {

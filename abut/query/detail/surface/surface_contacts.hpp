@@ -3,10 +3,98 @@
 // The contacts of two shapes as manifolds of their whole surfaces: contacts of parts that are on one plane are joined,
 // and internal edges are filtered (ghost collisions). For .cpp files.
 
-#include <abut/query/detail/surface/pair_edge_filter.hpp>
+#include <abut/query/contact.hpp>
+#include <abut/query/detail/surface/edge_filter.hpp>
+#include <abut/query/detail/surface/part_cache.hpp>
 #include <abut/query/detail/surface/surface_manifold.hpp>
+#include <abut/query/detail/surface/surface_normal_flags.hpp>
 
 namespace abut::detail {
+
+/// The surfaces that continue each of two shapes; null: none. The functions must outlive this.
+template <int D>
+struct NeighbourSurfaces {
+    const EachClosestPoint<D>* of_a = nullptr;  ///< what A touches beside B
+    const EachClosestPoint<D>* of_b = nullptr;  ///< what B touches beside A
+    /// The points nearest to the centres of A and B, shared by all pairs of an item that is no composite shape; null:
+    /// they are found for each pair.
+    NearestToCenter<D>*nearest_to_a = nullptr, *nearest_to_b = nullptr;
+};
+
+/// Filters contacts on internal edges between two shapes, to which it refers. The surface of a part is that of its
+/// whole composite shape, with the neighbours.
+template <int D>
+class PairEdgeFilter {
+public:
+    PairEdgeFilter(const View<D>& a, const View<D>& b, const NeighbourSurfaces<D>& neighbours = {});
+
+    /// From now on queries try this cache of the composite shape's parts first.
+    void use_cache(const PartCache<D>& cache) {
+        for (ForShape* shape : {&for_a_, &for_b_})
+            if (shape->surface.is_composite()) shape->surface.cache = &cache;
+    }
+
+    /// The size of the smaller shape.
+    double size() const { return std::min(size_a_, size_b_); }
+    bool a_is_larger() const { return size_a_ > size_b_; }
+    /// s
+    double scale() const { return for_a_.filter.scale(); }
+    /// Most surface queries stay this near to the contact.
+    double reach() const { return 5 * scale(); }
+
+    /// Tests the normal between two parts in the centre of their contact area and at the deepest point. manifold_of()
+    /// returns that area.
+    SurfaceNormalFlags surface_normal_flags(const Part<D>& part_a, const Part<D>& part_b,
+                                            const SignedDistance<D>& distance,
+                                            FunctionRef<const Manifold<D>&()> manifold_of) const;
+
+    /// Replaces a distance whose normal is no surface normal by that from a plane of the surface. Of two composite
+    /// shapes the larger counts as the level. Of two such planes it takes the one that separates sooner, so that
+    /// swapping A and B changes nothing. Returns false, and changes nothing, if there is no plane.
+    bool replace(const Part<D>& part_a, const Part<D>& part_b, const SurfaceNormalFlags& flags,
+                 SignedDistance<D>& distance);
+
+private:
+    /// The filter for one of the two shapes. The other one is the level.
+    class ForShape {
+    public:
+        ForShape(const View<D>& shape, const View<D>& level, bool level_is_b, double size,
+                 const EachClosestPoint<D>* neighbours, NearestToCenter<D>* shared)
+            : surface{level, neighbours},
+              filter(surface, size),
+              shape_(shape),
+              level_is_b_(level_is_b),
+              nearest_(shared != nullptr ? shared : &own_nearest_) {}
+        ForShape(const ForShape&) = delete;
+        ForShape& operator=(const ForShape&) = delete;
+
+        bool has_surface() const { return surface.is_composite() || surface.neighbours != nullptr; }
+        bool is_surface_normal(const Part<D>& part, const Part<D>& level_part, const SignedDistance<D>& distance,
+                               FunctionRef<const Manifold<D>&()> manifold_of) const;
+        std::optional<SurfacePlane<D>> plane(const Part<D>& part, const Part<D>& level_part,
+                                             const SignedDistance<D>& distance);
+
+        Surface<D> surface;
+        EdgeFilter<D> filter;
+
+    private:
+        bool is_alone(const SurfacePlace<D>& place) const;
+        SurfacePlace<D> point_on_level(const SignedDistance<D>& distance) const;
+        SurfacePlace<D> place_on_level(const Part<D>& part, const SignedDistance<D>& distance) const;
+        const DVec<D>& center() const;
+
+        const View<D>& shape_;
+        bool level_is_b_;
+        NearestToCenter<D> own_nearest_, *nearest_;
+        mutable std::optional<DVec<D>> center_;
+    };
+
+    double size_a_, size_b_;
+    ForShape for_a_, for_b_;
+};
+
+extern template class PairEdgeFilter<2>;
+extern template class PairEdgeFilter<3>;
 
 /// A manifold of the surfaces of two shapes.
 template <int D>
