@@ -2,6 +2,8 @@
 
 // Bucket sort by small whole numbers: linear time if no bucket is large.
 
+#include <abut/math/detail/large_pages.hpp>
+
 #include <algorithm>
 #include <cstdint>
 #include <span>
@@ -10,7 +12,8 @@
 namespace abut::detail {
 
 struct Buckets {
-    std::vector<std::uint64_t> keys;  ///< of all buckets, one after the other, each sorted
+    /// Of all buckets, one after the other, each sorted.
+    std::vector<std::uint64_t, LargePages<std::uint64_t>> keys;
     std::vector<std::uint32_t> ends;  ///< one per bucket: its end in `keys`
 
     std::span<const std::uint64_t> bucket(std::size_t number) const {

@@ -15,11 +15,11 @@ struct alignas(64) Line {
 };
 
 TEST(LargePages, HoldWhatIsWrittenAndAreAligned) {
-    for (const std::size_t count : {std::size_t{1}, detail::large_page / sizeof(Line) - 1,
-                                    detail::large_page / sizeof(Line), 3 * detail::large_page / sizeof(Line) + 5}) {
+    constexpr std::size_t least = detail::min_large_array / sizeof(Line);
+    for (const std::size_t count : {std::size_t{1}, least - 1, least, 3 * least + 5}) {
         std::vector<Line, detail::LargePages<Line>> lines(count);
         EXPECT_EQ(reinterpret_cast<std::uintptr_t>(lines.data()) % alignof(Line), 0u);
-        if (count * sizeof(Line) >= detail::large_page) {
+        if (count >= least) {
             EXPECT_EQ(reinterpret_cast<std::uintptr_t>(lines.data()) % detail::large_page, 0u);
         }
         for (std::size_t i = 0; i < count; ++i) lines[i].number = i;

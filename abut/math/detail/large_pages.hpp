@@ -1,7 +1,8 @@
 #pragma once
 
-// An allocator for large arrays with random access: it requests large pages from the system. With small pages a TLB
-// miss costs as much as the memory access.
+// An allocator for large arrays: it requests large pages from the system. With random access to small pages a TLB miss
+// costs as much as the memory access, and the first access to each of many small pages costs more than to few large
+// ones.
 
 #include <cstddef>
 #include <new>
@@ -9,6 +10,10 @@
 namespace abut::detail {
 
 inline constexpr std::size_t large_page = std::size_t{1} << 21;
+
+/// Smaller arrays have small pages: the TLB covers them, and large pages would be cleared for nothing but their
+/// beginning.
+inline constexpr std::size_t min_large_array = 4 * large_page;
 
 /// Requests that the system back the memory, aligned to `large_page`, by large pages. Only a hint.
 void prefer_large_pages(void* memory, std::size_t bytes);
@@ -33,7 +38,7 @@ struct LargePages {
 
 private:
     /// The remainder at the end has small pages.
-    static bool is_large(std::size_t count) { return count * sizeof(T) >= large_page; }
+    static bool is_large(std::size_t count) { return count * sizeof(T) >= min_large_array; }
     static std::align_val_t alignment(std::size_t count) {
         return std::align_val_t{is_large(count) ? large_page : alignof(T)};
     }

@@ -293,10 +293,10 @@ public:
 
     void build() {
         const auto count = static_cast<std::uint32_t>(triangles_.size());
-        storage_ = std::make_unique_for_overwrite<BvhItem[]>(count);
-        items_ = storage_.get();
+        storage_.reserve(count);
         Aabb3 exact = Aabb3::empty();
-        for (std::uint32_t i = 0; i < count; ++i) items_[i] = item_of(triangle(i), i, exact);
+        for (std::uint32_t i = 0; i < count; ++i) storage_.push_back(item_of(triangle(i), i, exact));
+        items_ = storage_.data();
         tree_.leaves.reserve(count / 4 + 1);
         tree_.nodes.reserve(count / 20 + 1);
         tree_.order.reserve(count);
@@ -306,11 +306,18 @@ public:
         nodes_.reserve(count / 2 + 1);
         const std::uint32_t root = grow(all);
         set_root(tree_, add(root), exact);
-        tree_.leaves.shrink_to_fit();
-        tree_.nodes.shrink_to_fit();
+        trim(tree_.leaves);
+        trim(tree_.nodes);
     }
 
 private:
+    /// Gives back capacity if it is much. A copy to new memory takes up to a third of the time of a build; capacity
+    /// that isn't used has no memory from the system in a large array.
+    template <class Array>
+    static void trim(Array& array) {
+        if (array.capacity() > array.size() + array.size() / 2) array.shrink_to_fit();
+    }
+
     Triangle3 triangle(std::uint32_t index) const {
         const glm::uvec3& t = triangles_[index];
         return {points_[t.x], points_[t.y], points_[t.z]};
@@ -421,7 +428,7 @@ private:
     std::span<const glm::uvec3> triangles_;
     std::span<const std::uint32_t> same_;
     MeshTree& tree_;
-    std::unique_ptr<BvhItem[]> storage_;
+    std::vector<BvhItem, LargePages<BvhItem>> storage_;
     BvhItem* items_ = nullptr;
     bool bounded_ = true;
     std::vector<BinaryNode, LargePages<BinaryNode>> nodes_;
