@@ -72,5 +72,7 @@
 #include <abut/world/file.hpp>
 #include <abut/world/history.hpp>
 #include <abut/world/options.hpp>
+#include <abut/world/recorded_world.hpp>
+#include <abut/world/replay.hpp>
 #include <abut/world/results.hpp>
 #include <abut/world/world.hpp>

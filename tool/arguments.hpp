@@ -25,7 +25,7 @@ Result<std::size_t> parse_frames(const std::string& text);
 template <int D>
 Result<Vec<D>> parse_point(const std::string& text);
 
-/// Number of reflections of a ray, 1 to 100000.
+/// Number of reflections of a ray, or of differences to report, 1 to 100000.
 Result<std::size_t> parse_bounces(const std::string& text);
 
 /// Maximum number of vertices of a convex part, 4 to a million.

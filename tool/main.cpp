@@ -246,6 +246,19 @@ void add_options(CLI::App& verb, InfoRequest& request) {
     add_options(verb, request.files, true);
 }
 
+// Arguments of `abut replay`; the number is still text.
+struct ReplayArguments {
+    ReplayRequest request;
+    std::optional<std::string> max;
+};
+
+void add_options(CLI::App& verb, ReplayArguments& arguments) {
+    verb.add_option("FILE", arguments.request.file, "The file that a RecordedWorld wrote")->required();
+    verb.add_option("--max", arguments.max, "Report the first N differences; default 10. All are counted")
+        ->type_name("N");
+    verb.add_flag("--json", arguments.request.json, "Print one JSON object instead of text");
+}
+
 // Parses the text of an option into `to`. Returns the error line for stderr if that fails.
 template <class Value, class To>
 std::optional<std::string> parse_option(const char* option, const std::optional<std::string>& text,
@@ -317,6 +330,13 @@ Result<ExitCode> run_walk(WalkArguments& arguments) {
     return run_walk(request);
 }
 
+Result<ExitCode> run_replay(ReplayArguments& arguments) {
+    if (const std::optional<std::string> problem =
+            parse_option("--max", arguments.max, parse_bounces, arguments.request.max_differences))
+        return Problem{ProblemCode::bad_argument, *problem};
+    return run_replay(arguments.request);
+}
+
 int run(int count, char** arguments) {
     CLI::App app(
         "Checks scenes and levels for collisions: which objects touch, where, how deep and when. Makes convex parts, "
@@ -351,6 +371,10 @@ int run(int count, char** arguments) {
     InfoRequest info;
     CLI::App& info_verb = *app.add_subcommand("info", "Lists the contents of a scene, a level, a field or a walk mesh");
     add_options(info_verb, info);
+    ReplayArguments replay;
+    CLI::App& replay_verb = *app.add_subcommand(
+        "replay", "Runs the recording of a world again, and reports where an answer differs, with the C++ for it");
+    add_options(replay_verb, replay);
 
     try {
         app.parse(count, arguments);
@@ -368,6 +392,7 @@ int run(int count, char** arguments) {
                               : decompose_verb.parsed() ? decompose.request.mesh
                               : bakes                   ? field.request.mesh
                               : walk_verb.parsed()      ? walk.request.mesh
+                              : replay_verb.parsed()    ? replay.request.file
                                                         : info.scene;
     const std::string too_large = file + ": needs more memory than there is" +
                                   (checks  ? ": --pairs selects fewer objects"
@@ -381,6 +406,7 @@ int run(int count, char** arguments) {
                                       : decompose_verb.parsed() ? run_decompose(decompose)
                                       : bakes                   ? run_field(field)
                                       : walk_verb.parsed()      ? run_walk(walk)
+                                      : replay_verb.parsed()    ? run_replay(replay)
                                                                 : run_info(info);
         return code ? static_cast<int>(*code) : fail(code.problem().message);
     } catch (const std::length_error&) {

@@ -116,6 +116,14 @@ Result<ExitCode> run_walk(const WalkRequest& request);
 /// File extension of a walk mesh.
 inline constexpr std::string_view walk_ending = ".walk";
 
+struct ReplayRequest {
+    std::string file;
+    std::size_t max_differences = 10;
+    bool json = false;
+};
+
+Result<ExitCode> run_replay(const ReplayRequest& request);
+
 /// Formats a line for stderr: "abut: ", the message with control characters replaced by blanks, and a newline.
 std::string one_line(std::string message);
 

@@ -23,14 +23,15 @@ bool World<D>::passes(std::uint32_t slot, const Filter& filter) const {
            (!filter.accepts || (*filter.accepts)(id));
 }
 
-/// Calls visit(slot) for the items whose AABBs overlap a box; it returns false to stop.
+/// Calls visit(slot) for the items whose AABBs overlap a box; it returns false to stop. After an update with continuous
+/// items, the broad phases find an item at any place of its motion.
 template <int D>
 template <class F>
 void World<D>::each_near(const Aabb<D>& box, const Filter& filter, F&& visit) const {
     query_count_.add(detail::region_weight);
     bool go_on = true;
     const auto visit_passing = [&](std::uint32_t slot) -> bool {
-        if (passes(slot, filter)) go_on = visit(slot);
+        if (passes(slot, filter) && (!widened_ || overlaps(this->box(slot), box))) go_on = visit(slot);
         return go_on;
     };
     moving_.each_overlapping(box, visit_passing);

@@ -21,7 +21,7 @@ using oracle::seal;
 constexpr std::size_t checksum_sums = 8;
 
 template <int D>
-Pose<D> random_pose(Random& random) {
+Pose<D> pose_nearby(Random& random) {
     Pose<D> pose{.position = {}, .rotation = random.rotation<D>()};
     for (int i = 0; i < D; ++i) pose.position[i] = random.uniform_float(-8, 8);
     return pose;
@@ -32,7 +32,7 @@ template <int D>
 World<D> random_world(Random& random) {
     World<D> world;
     const auto add = [&](const auto& shape) {
-        ItemOptions<D> options{.pose = random_pose<D>(random), .user = static_cast<std::uint64_t>(world.size())};
+        ItemOptions<D> options{.pose = pose_nearby<D>(random), .user = static_cast<std::uint64_t>(world.size())};
         // Two levels, each of many parts, take long to test.
         options.fixed = random.chance(0.2) || std::holds_alternative<detail::Composite<D>>(View<D>(view(shape)));
         options.sensor = random.chance(0.1);
@@ -44,7 +44,7 @@ World<D> random_world(Random& random) {
     Vec<D> up(0.0f);
     up[1] = 1;
     world.add(HalfSpace<D>{up, -3}, {.fixed = true});
-    world.add(at(rounded(HalfSpace<D>{up, -3}, 0.25f), random_pose<D>(random)), {.fixed = true});
+    world.add(at(rounded(HalfSpace<D>{up, -3}, 0.25f), pose_nearby<D>(random)), {.fixed = true});
     for (int i = 0; i < 3; ++i) {
         add(Ball<D>{Vec<D>(0.0f), 0.5f});
         add(Box<D>{Vec<D>(0.1f), Vec<D>(0.5f), random.rotation<D>()});
@@ -71,7 +71,7 @@ World<D> random_world(Random& random) {
     std::vector<Id> ids;
     world.each_item([&](Id id) { ids.push_back(id); });
     for (const Id id : ids) {
-        if (random.chance(0.3)) world.move(id, random_pose<D>(random));
+        if (random.chance(0.3)) world.move(id, pose_nearby<D>(random));
         if (random.chance(0.1)) world.remove(id);
     }
     return world;
@@ -84,15 +84,15 @@ Bits play(World<D>& world, std::uint64_t seed) {
     Bits bits;
     for (int frame = 0; frame < 5; ++frame) {
         world.each_item([&](Id id) {
-            if (!world.is_fixed(id) && random.chance(0.5)) world.move(id, random_pose<D>(random));
+            if (!world.is_fixed(id) && random.chance(0.5)) world.move(id, pose_nearby<D>(random));
         });
-        bits.put(world.add(Ball<D>{random_pose<D>(random).position, 0.5f}));
+        bits.put(world.add(Ball<D>{pose_nearby<D>(random).position, 0.5f}));
         const Events events = world.update();
         bits.put(events.began);
         bits.put(events.stayed);
         bits.put(events.ended);
         bits.put(world.contacts());
-        bits.put(world.raycast_all(Ray<D>::between(random_pose<D>(random).position, random_pose<D>(random).position)));
+        bits.put(world.raycast_all(Ray<D>::between(pose_nearby<D>(random).position, pose_nearby<D>(random).position)));
     }
     return bits;
 }
@@ -126,7 +126,7 @@ TYPED_TEST(WorldFile, HoldsEachShapeOnce) {
     const auto shape = random_shape<std::conditional_t<D == 2, Chain, Mesh>>(random);
     World<D> one, many;
     one.add(shape);
-    for (int i = 0; i < 50; ++i) many.add(shape, {.pose = random_pose<D>(random)});
+    for (int i = 0; i < 50; ++i) many.add(shape, {.pose = pose_nearby<D>(random)});
     EXPECT_LT(save_with_shapes(many)->size(), save_with_shapes(one)->size() + 50 * 64);
 }
 

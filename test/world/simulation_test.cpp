@@ -1,314 +1,342 @@
-// Random games against the reference implementation: the events, contacts and answers of a world are always those of
-// testing every pair.
+// A million random operations (a few ten thousand unless ABUT_LONG is set) on a world and on the reference
+// implementation, which tests every pair: changes, updates, questions, snapshots, copies and the past. A difference is
+// shown with a short sequence of operations that leads to it.
 
-#include "support/simulation.hpp"
+#include "../oracle/is_long.hpp"
+#include "support/checks.hpp"
+#include <abut/world/history.hpp>
 
-#include "../oracle/pair.hpp"
-#include "support/bits.hpp"
-
-#include <array>
+#include <deque>
 #include <iostream>
 
+#include <gtest/gtest-spi.h>
 #include <gtest/gtest.h>
 
 namespace abut::test {
 namespace {
 
-/// Counts the positive answers of each query: a test in which all answers are negative proves nothing.
-struct Seen {
-    int passed = 0, on_the_way = 0, ghosts = 0, covered = 0;
-    int touching = 0, several_touching = 0, nearest = 0, all_nearest = 0;
-    int began = 0, stayed = 0, ended = 0, contacts = 0, untested = 0;
-    int hits = 0, several_hits = 0, misses = 0, gaps = 0, depths = 0, overlapping = 0, containing = 0, stopped = 0;
+struct Scene {
+    std::uint64_t seed = 0;
+    int items = 30;
+    bool lattice = false;
+    double continuous = 0;
 };
 
-std::ostream& operator<<(std::ostream& out, const Seen& seen) {
-    return out << "began " << seen.began << ", stayed " << seen.stayed << ", ended " << seen.ended << ", contacts "
-               << seen.contacts << ", untested " << seen.untested << "; hits " << seen.hits << ", several "
-               << seen.several_hits << ", misses " << seen.misses << "; gaps " << seen.gaps << ", depths "
-               << seen.depths << "; ghosts " << seen.ghosts << ", left out " << seen.covered << "; passed "
-               << seen.passed << ", impacts " << seen.on_the_way << "; overlapping " << seen.overlapping
-               << ", containing " << seen.containing << ", stopped " << seen.stopped << "; touching " << seen.touching
-               << ", several " << seen.several_touching << "; nearest " << seen.nearest << ", all there are "
-               << seen.all_nearest;
-}
-
+/// A game of which each operation has random numbers of its own, so that it can be played without some of them.
 template <int D>
-void check_rays(Simulation<D>& game, Seen& seen) {
-    oracle::Random& random = game.random();
-    const Vec<D> from = game.any_point(), to = game.any_point();
-    Ray<D> ray = Ray<D>::between(from, to);
-    if (random.chance(0.3)) ray.length = std::numeric_limits<float>::infinity();
-    const Filter filter = game.filter();
-    const std::vector<WorldHit<D>> expected = game.reference.raycast_all(ray, filter);
-    ASSERT_EQ(Bits(game.world.raycast_all(ray, filter)), Bits(expected));
-    const auto first = expected.empty() ? std::nullopt : std::optional(expected.front());
-    ASSERT_EQ(Bits(game.world.raycast(ray, filter)), Bits(first));
-    ASSERT_EQ(game.world.raycast_any(ray, filter), !expected.empty());
-    const std::array rays{ray, Ray<D>::between(to, from)};
-    std::array<std::optional<WorldHit<D>>, 2> hits;
-    game.world.raycast(rays, hits, filter);
-    const std::vector<WorldHit<D>> back = game.reference.raycast_all(rays[1], filter);
-    ASSERT_EQ(Bits(hits[0]), Bits(first));
-    ASSERT_EQ(Bits(hits[1]), Bits(back.empty() ? std::nullopt : std::optional(back.front())));
-    seen.misses += expected.empty() ? 1 : 0;
-    seen.hits += expected.empty() ? 0 : 1;
-    seen.several_hits += expected.size() > 1 ? 1 : 0;
-}
-
-/// Checks a visitor that stops after `limit` calls: it gets that many distinct and correct items.
-template <int D, class S>
-void check_early_stop(const Simulation<D>& game, const S& shape, const Filter& filter, const std::vector<Id>& all,
-                      std::size_t limit, Seen& seen) {
-    std::vector<Id> visited;
-    game.world.each_overlapping(
-        shape,
-        [&](Id id) {
-            visited.push_back(id);
-            return visited.size() < limit;
-        },
-        filter);
-    ASSERT_EQ(visited.size(), std::min(limit, all.size()));
-    std::sort(visited.begin(), visited.end());
-    ASSERT_TRUE(std::includes(all.begin(), all.end(), visited.begin(), visited.end()));
-    ASSERT_EQ(std::adjacent_find(visited.begin(), visited.end()), visited.end());
-    seen.stopped += visited.size() < all.size() ? 1 : 0;
-}
-
-/// Checks the questions about one shape at several poses.
-template <int D, class S>
-void check_many(const Simulation<D>& game, const S& shape, std::span<const Pose<D>> poses, const Filter& filter) {
-    std::vector<std::optional<WorldClosest<D>>> nearest(poses.size());
-    IdLists overlapping;
-    game.world.closest(shape, poses, nearest, filter);
-    game.world.overlapping(shape, poses, overlapping, filter);
-    ASSERT_EQ(overlapping.size(), poses.size());
-    for (std::size_t i = 0; i < poses.size(); ++i) {
-        const auto placed = at(shape, poses[i]);
-        const View<D> query = view(placed);
-        ASSERT_EQ(Bits(nearest[i]), Bits(game.reference.closest(query, filter)));
-        ASSERT_EQ(Bits(overlapping[i]), Bits(game.reference.overlapping(query, filter)));
+class Game {
+public:
+    Game(const Scene& scene, Executor& executor, Seen& seen)
+        : game_(scene.seed, scene.items, scene.lattice, {.max_released_shapes = 100'000}, scene.continuous),
+          executor_(executor),
+          seen_(seen) {
+        game_.with_all = game_.with_levels = true;
     }
-}
 
-template <int D>
-void check_shapes(Simulation<D>& game, Seen& seen) {
-    oracle::Random& random = game.random();
-    const Filter filter = game.filter();
-    const Pose<D> pose = game.any_pose();
-    game.with_any_shape([&](const auto& shape) {
-        const auto placed = at(shape, pose);
-        const View<D> query = view(placed);
-        const auto nearest = game.reference.closest(query, filter);
-        ASSERT_EQ(Bits(game.world.closest(placed, filter)), Bits(nearest));
-        if (nearest) ++(nearest->closest.distance > 0 ? seen.gaps : seen.depths);
-
-        const std::size_t k = random.below(random.chance(0.7) ? 12 : 200);
-        const auto nearest_k = game.reference.k_nearest(query, k, filter);
-        ASSERT_EQ(Bits(game.world.k_nearest(placed, k, filter)), Bits(nearest_k));
-        ++(nearest_k.size() < k ? seen.all_nearest : seen.nearest);
-
-        const std::vector<Id> all = game.reference.overlapping(query, filter);
-        ASSERT_EQ(game.world.overlapping(placed, filter), all);
-        seen.overlapping += all.empty() ? 0 : 1;
-        check_early_stop(game, placed, filter, all, 1 + random.below(3), seen);
-
-        const std::array poses{pose, Pose<D>{0.5f * pose.position, pose.rotation}};
-        check_many<D>(game, shape, poses, filter);
-    });
-}
-
-template <int D>
-void check_points(Simulation<D>& game, Seen& seen) {
-    const Filter filter = game.filter();
-    const Vec<D> point = game.any_point();
-    const std::vector<Id> holders = game.reference.containing(point, filter);
-    ASSERT_EQ(game.world.containing(point, filter), holders);
-    seen.containing += holders.empty() ? 0 : 1;
-    const View<D> as_shape(detail::round_points<D>({point}, 0));
-    ASSERT_EQ(Bits(game.world.closest(point, filter)), Bits(game.reference.closest(as_shape, filter)));
-    ASSERT_EQ(Bits(game.world.k_nearest(point, 3, filter)), Bits(game.reference.k_nearest(as_shape, 3, filter)));
-}
-
-template <int D>
-void check_queries(Simulation<D>& game, Seen& seen) {
-    for (int i = 0; i < 2; ++i) {
-        ASSERT_NO_FATAL_FAILURE(check_rays(game, seen));
-        ASSERT_NO_FATAL_FAILURE(check_shapes(game, seen));
-        ASSERT_NO_FATAL_FAILURE(check_points(game, seen));
+    /// Returns what was done.
+    std::string step(std::uint64_t seed) {
+        oracle::Random& random = game_.random() = oracle::Random(seed);
+        const std::uint32_t number = random.below(100);
+        if (number < 40) return change(number);
+        if (number < 80) return query(Checks<D>(game_, game_.world, game_.reference, executor_, seen_), number - 40);
+        if (number < 90) return update();
+        if (number < 93) return save();
+        if (number < 94) return restore();
+        if (number < 95) return copy();
+        if (number < 97) return record();
+        return query_past();
     }
-}
+    const Simulation<D>& simulation() const { return game_; }
 
-template <int D>
-void check_items(const Simulation<D>& game) {
-    const World<D>& world = game.world;
-    ASSERT_EQ(world.size(), game.reference.items().size());
-    for (const auto& [id, item] : game.reference.items()) {
-        ASSERT_TRUE(world.contains(id));
-        ASSERT_EQ(world.user(id), item.options.user);
-        ASSERT_EQ(world.pose(id), item.options.pose);
-        ASSERT_EQ(world.layers(id), item.options.layers);
-        ASSERT_EQ(world.mask(id), item.options.mask);
-        ASSERT_EQ(world.is_fixed(id), item.options.fixed);
-        ASSERT_EQ(world.is_sensor(id), item.options.sensor);
-        ASSERT_EQ(world.is_continuous(id), item.options.continuous);
-        ASSERT_EQ(world.group(id), item.options.group);
-        ASSERT_EQ(world.is_enabled(id), item.options.enabled);
-    }
-    std::vector<Id> all;
-    world.each_item([&](Id id) { all.push_back(id); });
-    ASSERT_EQ(all, game.all_ids());
-}
+private:
+    struct State {
+        std::vector<std::byte> bytes;
+        ReferenceWorld<D> reference;
+        std::set<Id> given;
+    };
+    /// A copy of the world, and the snapshots whose shapes it has.
+    struct Branch {
+        Simulation<D> game;
+        std::vector<State> states;
+    };
 
-/// Checks the queries, which must not depend on whether anything changed since the last update.
-template <int D>
-void check_touching(const Simulation<D>& game, Seen& seen) {
-    for (const Id id : game.all_ids()) {
-        const std::vector<Id> expected = game.reference.touching(id), found = game.world.touching(id);
-        ASSERT_EQ(found, expected);
-        seen.touching += found.empty() ? 0 : 1;
-        seen.several_touching += found.size() > 2 ? 1 : 0;
-        std::vector<Id> first;
-        game.world.each_touching(id, [&](Id other) {
-            first.push_back(other);
-            return false;
-        });
-        ASSERT_EQ(first, std::vector<Id>(found.begin(), found.begin() + (found.empty() ? 0 : 1)));
-    }
-}
-
-/// Checks that `contact` and `impact` of every touching or begun pair return the entries of the lists.
-template <int D>
-void check_pairs(const World<D>& world, const Events& events) {
-    std::size_t contacts = 0, impacts = 0;
-    for (const std::span<const IdPair> pairs : {events.began, events.stayed})
-        for (const IdPair& pair : pairs) {
-            const Contact<D> contact = world.contact(pair);
-            ASSERT_EQ(Bits(world.contact({pair.b, pair.a})), Bits(contact));
-            const auto is_of_pair = [&](const auto& entry) { return IdPair{entry.a, entry.b} == pair; };
-            const auto listed = std::find_if(world.contacts().begin(), world.contacts().end(), is_of_pair);
-            ASSERT_EQ(static_cast<bool>(contact), listed != world.contacts().end());
-            if (contact) {
-                ASSERT_EQ(Bits(contact), Bits(listed->contact));
-            }
-            contacts +=
-                static_cast<std::size_t>(std::count_if(world.contacts().begin(), world.contacts().end(), is_of_pair));
-            const std::optional<Hit<D>> impact = world.impact(pair);
-            const auto found = std::find_if(world.impacts().begin(), world.impacts().end(), is_of_pair);
-            ASSERT_EQ(impact.has_value(), found != world.impacts().end());
-            if (impact) {
-                ASSERT_EQ(Bits(*impact), Bits(found->hit));
-            }
-            impacts += impact ? 1 : 0;
+    std::string change(std::uint32_t number) {
+        oracle::Random& random = game_.random();
+        const std::size_t size = game_.reference.items().size();
+        if (size < 6 || (number < 3 && size < 50)) {
+            game_.add();
+            return "add";
         }
-    ASSERT_EQ(contacts, world.contacts().size());
-    ASSERT_EQ(impacts, world.impacts().size());
-    for (const IdPair& pair : events.ended)
-        if (!std::binary_search(events.began.begin(), events.began.end(), pair)) {
-            ASSERT_FALSE(world.contact(pair));
-            ASSERT_FALSE(world.impact(pair));
+        if (number < 4 && size < 50) {
+            game_.add_several(random.below(5));
+            return "add several";
         }
-}
-
-template <int D>
-void check_update(Simulation<D>& game, Seen& seen) {
-    const Events events = game.world.update();
-    game.reference.update();
-    ASSERT_EQ(Bits(events.began), Bits(game.reference.began));
-    ASSERT_EQ(Bits(events.stayed), Bits(game.reference.stayed));
-    ASSERT_EQ(Bits(events.ended), Bits(game.reference.ended));
-    ASSERT_EQ(Bits(events.fractions), Bits(game.reference.fractions));
-    ASSERT_EQ(Bits(game.world.contacts()), Bits(game.reference.contacts));
-    ASSERT_EQ(Bits(game.world.impacts()), Bits(game.reference.impacts));
-    ASSERT_NO_FATAL_FAILURE(check_pairs(game.world, events));
-    const UpdateCounts counts = game.world.counts(), min_counts = game.reference.min_counts,
-                       max_counts = game.reference.max_counts;
-    ASSERT_TRUE(min_counts.near <= counts.near && counts.near <= max_counts.near)
-        << min_counts.near << " " << counts.near;
-    ASSERT_TRUE(min_counts.tested <= counts.tested && counts.tested <= max_counts.tested)
-        << min_counts.tested << " " << counts.tested;
-    seen.began += static_cast<int>(events.began.size());
-    seen.passed += static_cast<int>(game.reference.passed);
-    for (const float fraction : events.fractions) seen.on_the_way += fraction < 1 ? 1 : 0;
-    seen.stayed += static_cast<int>(events.stayed.size());
-    seen.ended += static_cast<int>(events.ended.size());
-    seen.contacts += static_cast<int>(game.world.contacts().size());
-    seen.untested += static_cast<int>(game.world.counts().near - game.world.counts().tested);
-}
-
-/// Plays one game and adds its counts.
-template <int D>
-void play(std::uint64_t seed, int items, int frames, bool lattice, Seen& seen, double continuous = 0) {
-    SCOPED_TRACE("seed " + std::to_string(seed));
-    Simulation<D> game(seed, items, lattice, {}, continuous);
-    game.with_all = true;
-    for (int frame = 0; frame < frames; ++frame) {
-        SCOPED_TRACE("frame " + std::to_string(frame));
-        ASSERT_NO_FATAL_FAILURE(check_queries(game, seen));
-        ASSERT_NO_FATAL_FAILURE(check_update(game, seen));
-        ASSERT_NO_FATAL_FAILURE(check_queries(game, seen));
-        ASSERT_NO_FATAL_FAILURE(check_items(game));
-        ASSERT_NO_FATAL_FAILURE(check_touching(game, seen));
-        game.change();
-        ASSERT_NO_FATAL_FAILURE(check_touching(game, seen));
+        const Id id = game_.any_id();
+        const auto of_item = [&](const char* what) { return std::string(what) + " " + std::to_string(id.index); };
+        switch (number) {
+            case 4:
+                game_.remove(id);
+                return of_item("remove");
+            case 5:
+                game_.remove_several(any_ids(0.1));
+                return "remove several";
+            case 6:
+                game_.set_shape(id);
+                return of_item("set the shape of");
+            case 7:
+            case 8:
+            case 9:
+                edited += game_.edit_shape(id) ? 1 : 0;
+                return of_item("edit the shape of");
+            case 10:
+                game_.set_filter(id);
+                return of_item("set the filter of");
+            case 11:
+            case 12:
+                game_.set_an_option(id);
+                return of_item("set an option of");
+            case 13:
+                game_.set_pair_filter();
+                return "set the pair filter";
+            case 14:
+            case 15:
+                game_.move(id, game_.any_pose());
+                return of_item("teleport");
+            case 16:
+                game_.move(id, game_.world.pose(id));
+                return of_item("leave in place");
+            case 17:
+                game_.world.refresh();
+                return "refresh";
+            case 18:
+            case 19:
+            case 20:
+            case 21:
+            case 22:
+            case 23:
+                game_.move_several(any_ids(0.5));
+                return "move several";
+            default:
+                game_.move(id, game_.step_from(game_.world.pose(id)));
+                return of_item("move");
+        }
     }
-    EXPECT_TRUE(game.fresh_ids);
-    EXPECT_GT(game.reused, frames / 10);
-    seen.ghosts += static_cast<int>(game.reference.ghosts);
-    seen.covered += static_cast<int>(game.reference.covered);
-    std::cout << "seed " << seed << ", so far: " << seen << "\n";
+
+    std::string query(Checks<D> checks, std::uint32_t number) {
+        if (number < 8) return checks.rays(), "rays";
+        if (number < 15) return checks.shapes(), "shapes";
+        if (number < 22) return checks.points(), "points";
+        if (number < 28) return checks.sweeps(), "sweeps";
+        if (number < 32) return checks.contacts_of_shapes(), "contacts of a shape";
+        if (number < 36) return checks.box(), "a box";
+        if (number < 38) return checks.items(), "items";
+        return checks.touching(), "touching";
+    }
+
+    std::string update() {
+        const bool many = game_.random().chance(0.3);
+        const Events events = many ? game_.world.update(executor_) : game_.world.update();
+        game_.reference.update();
+        Checks<D>(game_, game_.world, game_.reference, executor_, seen_).events(events);
+        return many ? "update by threads" : "update";
+    }
+
+    std::string save() {
+        if (states_.size() == 4) states_.erase(states_.begin() + game_.random().below(4));
+        states_.push_back({game_.world.save(), game_.reference, game_.given});
+        return "save";
+    }
+    /// Also to a state from before the last one that was restored.
+    std::string restore() {
+        if (states_.empty()) return "nothing";
+        const std::uint32_t i = game_.random().below(static_cast<std::uint32_t>(states_.size()));
+        const std::set<Id> given = game_.given;
+        const std::optional<Problem> problem = game_.world.restore(states_[i].bytes);
+        EXPECT_FALSE(problem) << (problem ? problem->message : "");
+        game_.reference.restore(states_[i].reference);
+        game_.given = states_[i].given;
+        EXPECT_TRUE(game_.world.contacts().empty() && game_.world.impacts().empty());
+        EXPECT_EQ(game_.world.save(), states_[i].bytes);
+        for (const Id id : given) EXPECT_EQ(game_.world.contains(id), game_.reference.items().contains(id));
+        ++restored;
+        return "restore " + std::to_string(i);
+    }
+    /// Goes on with a copy, and keeps the world itself for the next time.
+    std::string copy() {
+        if (!other_) {
+            other_ = Branch{game_, states_};
+            return "copy";
+        }
+        std::swap(other_->game, game_);
+        std::swap(other_->states, states_);
+        return "change places with the copy";
+    }
+
+    std::string record() {
+        EXPECT_EQ(past_.record(), recorded_++);
+        records_.push_back(game_.reference);
+        if (records_.size() > past_ticks) records_.pop_front();
+        return "record";
+    }
+    std::string query_past() {
+        if (records_.empty()) return "nothing";
+        oracle::Random& random = game_.random();
+        const std::uint32_t tick = random.below(static_cast<std::uint32_t>(records_.size()));
+        const float fraction = std::array<float, 3>{0, 1, random.uniform_float(0, 1)}[random.below(3)];
+        const World<D>& then = past_.at(past_.first_tick() + tick, fraction);
+        ReferenceWorld<D> reference = records_[tick];
+        if (tick + 1 < records_.size()) reference.move_towards(records_[tick + 1], fraction);
+        ++asked_past;
+        return "the past: " + query(Checks<D>(game_, then, reference, executor_, seen_), random.below(38));
+    }
+
+    std::vector<Id> any_ids(double share) {
+        std::vector<Id> ids = game_.all_ids();
+        std::erase_if(ids, [&](Id) { return !game_.random().chance(share); });
+        return ids;
+    }
+
+    static constexpr std::size_t past_ticks = 5;
+
+    Simulation<D> game_;
+    Executor& executor_;
+    Seen& seen_;
+    std::vector<State> states_;
+    std::optional<Branch> other_;
+    History<D> past_{game_.world, past_ticks};
+    std::deque<ReferenceWorld<D>> records_;
+    std::uint64_t recorded_ = 0;
+
+public:
+    int edited = 0, restored = 0, asked_past = 0;
+};
+
+using Seeds = std::vector<std::uint64_t>;
+
+/// What a game showed: the first failure, if any, and what was done until then.
+struct Played {
+    std::string failure;
+    std::vector<std::string> steps;
+    int reused = 0, edited = 0, restored = 0, asked_past = 0, ghosts = 0, covered = 0;
+    bool fresh_ids = true;
+};
+
+/// Plays until an operation fails.
+template <int D>
+Played play(const Scene& scene, const Seeds& seeds, Executor& executor, Seen& seen) {
+    testing::TestPartResultArray failures;
+    const testing::ScopedFakeTestPartResultReporter reporter(
+        testing::ScopedFakeTestPartResultReporter::INTERCEPT_ONLY_CURRENT_THREAD, &failures);
+    Game<D> game(scene, executor, seen);
+    Played result;
+    for (std::size_t i = 0; i < seeds.size() && failures.size() == 0; ++i) result.steps.push_back(game.step(seeds[i]));
+    if (failures.size() > 0) {
+        const testing::TestPartResult& first = failures.GetTestPartResult(0);
+        result.failure = std::string(first.file_name()) + ":" + std::to_string(first.line_number()) + ": " +
+                         std::string(first.message()).substr(0, 2000);
+    }
+    const Simulation<D>& game_of = game.simulation();
+    result.reused = game_of.reused;
+    result.fresh_ids = game_of.fresh_ids;
+    result.ghosts = static_cast<int>(game_of.reference.ghosts);
+    result.covered = static_cast<int>(game_of.reference.covered);
+    result.edited = game.edited;
+    result.restored = game.restored;
+    result.asked_past = game.asked_past;
+    return result;
 }
 
-/// Plays a dense game, a sparse one, and a short one that is so dense that some items have more neighbours than are
-/// tested one by one.
+/// Leaves out operations, at first many at once, as long as one still fails.
 template <int D>
-void play_all(std::uint64_t seed, bool lattice) {
-    constexpr int frames = 150;
+Played shortest(const Scene& scene, Seeds seeds, Executor& executor) {
     Seen seen;
-    for (int game = 0; game < oracle::case_count(1); ++game) {
-        play<D>(seed++, 40, frames, lattice, seen);
-        play<D>(seed++, 12, frames, lattice, seen);
-        play<D>(seed++, 100, 12, lattice, seen);
+    Played best = play<D>(scene, seeds, executor, seen);
+    seeds.resize(best.steps.size());
+    for (std::size_t chunk = seeds.size() / 2; chunk > 0; chunk /= 2)
+        for (std::size_t from = 0; from < seeds.size();) {
+            Seeds fewer = seeds;
+            const auto first = fewer.begin() + static_cast<std::ptrdiff_t>(from);
+            fewer.erase(first, first + static_cast<std::ptrdiff_t>(std::min(chunk, seeds.size() - from)));
+            Played played = play<D>(scene, fewer, executor, seen);
+            if (played.failure.empty()) {
+                from += chunk;
+                continue;
+            }
+            fewer.resize(played.steps.size());
+            seeds = std::move(fewer);
+            best = std::move(played);
+        }
+    return best;
+}
+
+template <int D>
+void play_or_explain(const Scene& scene, int operations, Executor& executor, Seen& seen) {
+    oracle::Random random(scene.seed);
+    Seeds seeds;
+    while (seeds.size() < static_cast<std::size_t>(operations)) seeds.push_back(random.bits());
+    const Played played = play<D>(scene, seeds, executor, seen);
+    if (!played.failure.empty()) {
+        const Played best = shortest<D>(scene, seeds, executor);
+        std::string steps;
+        for (const std::string& step : best.steps) steps += "\n  " + step;
+        FAIL() << "dimension " << D << ", seed " << scene.seed << ", " << scene.items << " items, lattice "
+               << scene.lattice << ", continuous " << scene.continuous << "; operation " << played.steps.size()
+               << ", or after " << best.steps.size() << ":" << steps << "\n"
+               << best.failure;
     }
+    EXPECT_TRUE(played.fresh_ids) << scene.seed;
+    EXPECT_GT(std::min({played.reused, played.edited, played.restored, played.asked_past}), 0) << scene.seed;
+    seen.ghosts += played.ghosts;
+    seen.covered += played.covered;
+}
+
+/// Plays dense and sparse scenes in turn. Each game is short, so that a failure has a short history.
+template <int D>
+void play_all(std::uint64_t first_seed, bool lattice, double continuous) {
+    constexpr int operations = 1000;
+    const int games = oracle::is_long() ? 125 : 4;
+    ThreadPool pool(2);
+    Seen seen;
+    for (int i = 0; i < games; ++i) {
+        const Scene scene{first_seed + static_cast<std::uint64_t>(i), std::array{40, 12, 25, 60}[i % 4], lattice,
+                          continuous};
+        ASSERT_NO_FATAL_FAILURE(play_or_explain<D>(scene, operations, pool, seen));
+    }
+    std::cout << games * operations << " operations from seed " << first_seed << ": " << seen << "\n";
     for (const int count :
-         {seen.began, seen.stayed, seen.ended, seen.contacts, seen.untested, seen.hits, seen.several_hits, seen.misses,
-          seen.gaps, seen.depths, seen.ghosts, seen.covered, seen.overlapping, seen.containing, seen.stopped,
-          seen.touching, seen.several_touching, seen.nearest, 3 * seen.all_nearest})
-        EXPECT_GT(count, oracle::case_count(frames / 2));
+         {seen.began,        seen.stayed,     seen.ended,        seen.contacts, seen.untested,         seen.hits,
+          seen.several_hits, seen.misses,     seen.gaps,         seen.depths,   seen.ghosts,           seen.covered,
+          seen.overlapping,  seen.containing, seen.stopped,      seen.touching, seen.several_touching, seen.nearest,
+          seen.all_nearest,  seen.sweep_hits, seen.sweep_misses, seen.at_once,  seen.query_contacts,   seen.in_box})
+        EXPECT_GT(count, 10 * games);
+    if (continuous > 0) {
+        EXPECT_GT(std::min(seen.passed, seen.on_the_way - seen.passed), games);
+    }
 }
 
 TEST(Simulation, Plane) {
-    play_all<2>(11, false);
+    play_all<2>(10'000, false, 0);
 }
 TEST(Simulation, Space) {
-    play_all<3>(1001, false);
+    play_all<3>(20'000, false, 0);
 }
 TEST(Simulation, PlaneOnALattice) {
-    play_all<2>(2001, true);
+    play_all<2>(30'000, true, 0);
 }
 TEST(Simulation, SpaceOnALattice) {
-    play_all<3>(3001, true);
+    play_all<3>(40'000, true, 0);
 }
-
-template <int D>
-void play_continuous(std::uint64_t seed) {
-    constexpr int frames = 100;
-    for (const bool lattice : {false, true}) {
-        Seen seen;
-        for (int game = 0; game < oracle::case_count(1); ++game) {
-            play<D>(seed++, 30, frames, lattice, seen, 0.3);
-            play<D>(seed++, 10, frames, lattice, seen, 1);
-        }
-        for (const int count : {seen.began, seen.ended, seen.passed, seen.on_the_way - seen.passed})
-            EXPECT_GT(count, oracle::case_count(frames / 8));
-    }
-}
-
 TEST(Simulation, PlaneWithContinuousItems) {
-    play_continuous<2>(4001);
+    play_all<2>(50'000, false, 0.3);
 }
 TEST(Simulation, SpaceWithContinuousItems) {
-    play_continuous<3>(5001);
+    play_all<3>(60'000, false, 0.3);
+}
+TEST(Simulation, PlaneOnALatticeWithContinuousItems) {
+    play_all<2>(70'000, true, 1);
+}
+TEST(Simulation, SpaceOnALatticeWithContinuousItems) {
+    play_all<3>(80'000, true, 1);
 }
 
 }  // namespace

@@ -1,16 +1,13 @@
-// Sweeps through a world: examples with known answers, and comparison with a sweep of every single item.
+// Sweeps through a world: examples with known answers.
 
-#include "../oracle/pair.hpp"
 #include "support/before_and_after_update.hpp"
 #include "support/bits.hpp"
 #include "support/circles.hpp"
-#include "support/simulation.hpp"
-#include <abut/math/detail/rigid_path.hpp>
+#include "support/random_shapes.hpp"
 #include <abut/query/sweep.hpp>
 #include <abut/shape/chain.hpp>
 
 #include <array>
-#include <iostream>
 
 #include <gtest/gtest.h>
 
@@ -137,119 +134,6 @@ TEST(WorldSweep, NothingIsTooThinOrTooFast) {
             ASSERT_EQ(turning->id, wall);
         }
     }
-}
-
-/// The first hit of a sweep of every single item.
-template <int D, class SweepAt>
-std::optional<WorldHit<D>> first_of_all(const ReferenceWorld<D>& reference, const View<D>& shape, const Filter& filter,
-                                        SweepAt&& sweep_at) {
-    std::optional<WorldHit<D>> first;
-    for (const auto& [id, item] : reference.items()) {
-        const View<D> view = item.view();
-        const bool solids =
-            std::holds_alternative<HalfSpaceView<D>>(shape) && std::holds_alternative<HalfSpaceView<D>>(view);
-        if (solids || !ReferenceWorld<D>::passes(id, item, filter)) continue;
-        const std::optional<Hit<D>> hit = sweep_at(item);
-        if (hit && (!first || hit->fraction < first->hit.fraction)) first = WorldHit<D>{id, *hit};
-    }
-    return first;
-}
-
-struct SweepCounts {
-    int hits = 0, misses = 0, at_once = 0;
-};
-
-/// Compares two hits. If several items touch at the hit, the normal is that of their union, and only its side is
-/// compared: it faces the mover.
-template <int D>
-void expect_same_but_for_seams(const std::optional<WorldHit<D>>& found, std::optional<WorldHit<D>> expected,
-                               const ReferenceWorld<D>& reference, const View<D>& mover, const DVec<D>& motion) {
-    if (found && expected && found->hit.normal != expected->hit.normal) {
-        int near = 0;
-        for (const auto& [id, item] : reference.items())
-            near += closest(item.view(), found->hit.point).distance < 3 * 1e-3 * size(mover) ? 1 : 0;
-        // The normal of a single composite is filtered twice, and rounded each time.
-        const double off = length(DVec<D>(found->hit.normal) - DVec<D>(expected->hit.normal));
-        EXPECT_TRUE(near > 1 || off < 1e-6) << off;
-        EXPECT_NEAR(length(DVec<D>(found->hit.normal)), 1, 1e-6);
-        EXPECT_LT(dot(DVec<D>(found->hit.normal), motion), 0);
-        expected->hit.normal = found->hit.normal;
-    }
-    ASSERT_EQ(Bits(found), Bits(expected));
-}
-
-template <int D>
-void check_sweeps(Simulation<D>& game, SweepCounts& seen) {
-    oracle::Random& random = game.random();
-    const Filter filter = game.filter();
-    const Pose<D> from = game.any_pose(), to = game.any_pose();
-    const Vec<D> motion = (to.position - from.position) * (random.chance(0.2) ? 0.1f : 1.0f);
-    Motion<D> turning = Motion<D>::between(from, to);
-    turning.turn *= random.chance(0.3) ? 7.0f : 1.0f;
-    const auto note = [&](const std::optional<WorldHit<D>>& hit) {
-        ++(hit ? seen.hits : seen.misses);
-        seen.at_once += hit && hit->hit.fraction == 0 ? 1 : 0;
-    };
-    game.with_any_shape([&](const auto& shape) {
-        const auto placed = at(shape, from);
-        const View<D> query = view(placed), own = view(shape);
-        using Item = typename ReferenceWorld<D>::Item;
-        const auto straight = first_of_all<D>(game.reference, query, filter, [&](const Item& item) {
-            return sweep(query, motion, item.view(), Vec<D>(0.0f));
-        });
-        expect_same_but_for_seams<D>(game.world.sweep(placed, motion, filter), straight, game.reference, query,
-                                     DVec<D>(motion));
-        ASSERT_FALSE(testing::Test::HasFatalFailure());
-        note(straight);
-        const auto spun = first_of_all<D>(game.reference, own, filter, [&](const Item& item) {
-            return sweep(own, turning, item.placed({}), Motion<D>{.from = item.options.pose});
-        });
-        const auto expect_same_on = [&](const std::optional<WorldHit<D>>& found,
-                                        const std::optional<WorldHit<D>>& expected, const RigidPath<D>& path) {
-            const DVec<D> direction =
-                found ? path.velocity(static_cast<double>(found->hit.fraction), DVec<D>(found->hit.point))
-                      : DVec<D>(0.0);
-            expect_same_but_for_seams<D>(found, expected, game.reference, own, direction);
-        };
-        expect_same_on(game.world.sweep(shape, turning, filter), spun, rigid_path(turning));
-        ASSERT_FALSE(testing::Test::HasFatalFailure());
-        note(spun);
-        const auto between = first_of_all<D>(game.reference, own, filter, [&](const Item& item) {
-            const Pose<D>& there = item.options.pose;
-            return sweep(own, from, to, item.placed({}), there, there);
-        });
-        expect_same_on(game.world.sweep(shape, from, to, filter), between, rigid_path(from, to));
-        ASSERT_FALSE(testing::Test::HasFatalFailure());
-        note(between);
-    });
-}
-
-template <int D>
-void play(std::uint64_t seed, bool lattice) {
-    SCOPED_TRACE("seed " + std::to_string(seed));
-    Simulation<D> game(seed, 40, lattice);
-    SweepCounts seen;
-    for (int frame = 0; frame < oracle::case_count(40); ++frame) {
-        SCOPED_TRACE("frame " + std::to_string(frame));
-        for (int i = 0; i < 3; ++i) ASSERT_NO_FATAL_FAILURE(check_sweeps(game, seen));
-        game.world.update();
-        for (int i = 0; i < 3; ++i) ASSERT_NO_FATAL_FAILURE(check_sweeps(game, seen));
-        game.change();
-    }
-    std::cout << "seed " << seed << ": hits " << seen.hits << ", misses " << seen.misses << ", at once " << seen.at_once
-              << "\n";
-    EXPECT_GT(seen.hits, 100);
-    EXPECT_GT(seen.misses, 20);
-    EXPECT_GT(seen.at_once, 10);
-}
-
-TEST(WorldSweep, IsTheFirstOfAllItemsInThePlane) {
-    play<2>(41, false);
-    play<2>(42, true);
-}
-TEST(WorldSweep, IsTheFirstOfAllItemsInSpace) {
-    play<3>(43, false);
-    play<3>(44, true);
 }
 
 template <int D>

@@ -13,7 +13,9 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <memory>
 #include <tuple>
+#include <typeinfo>
 
 namespace abut::test {
 
@@ -22,6 +24,8 @@ class ReferenceWorld {
 public:
     struct Item {
         std::function<View<D>(const Pose<D>&)> placed;
+        std::shared_ptr<const void> shape;  ///< of this type, which users of the library may do without
+        const std::type_info* type = nullptr;
         ItemOptions<D> options;
         bool changed = true;
         bool settled = false;           ///< present at the last update with this shape
@@ -32,11 +36,21 @@ public:
 
     template <class S>
     void add(Id id, const S& shape, const ItemOptions<D>& options) {
-        items_[id] = {placer(shape), options, true, false, std::nullopt};
+        const auto stored = std::make_shared<const decltype(owned(shape))>(owned(shape));
+        const auto placed = [stored](const Pose<D>& pose) -> View<D> { return abut::view(at(*stored, pose)); };
+        items_[id] = {placed, stored, &typeid(decltype(owned(shape))), options, true, false, std::nullopt};
     }
     template <class S>
     void set_shape(Id id, const S& shape) {
-        items_[id] = {placer(shape), items_.at(id).options, true, false, std::nullopt};
+        add(id, shape, ItemOptions<D>(items_.at(id).options));
+    }
+    template <class S, class F>
+    bool edit_shape(Id id, F&& edit) {
+        if (*items_.at(id).type != typeid(S)) return false;
+        S edited = *static_cast<const S*>(items_.at(id).shape.get());
+        edit(edited);
+        set_shape(id, edited);
+        return true;
     }
     void move(Id id, const Pose<D>& pose) {
         Item& item = items_.at(id);
@@ -65,6 +79,26 @@ public:
         item.before.reset();
     }
     void remove(Id id) { items_.erase(id); }
+
+    /// Returns to another state, as World::restore does: without the lists of the last update, and the next one tests
+    /// all pairs. The pair filter is not part of it.
+    void restore(const ReferenceWorld& saved) {
+        items_ = saved.items_;
+        touching_ = saved.touching_;
+        passed_ = saved.passed_;
+        for (auto& [id, item] : items_) item.changed = true;
+        contacts.clear();
+        impacts.clear();
+    }
+    /// The items on their way to where they are in another state.
+    void move_towards(const ReferenceWorld& next, float fraction) {
+        for (auto& [id, item] : items_) {
+            const auto there = next.items_.find(id);
+            if (fraction == 0 || there == next.items_.end()) continue;
+            const Pose<D>&to = there->second.options.pose, from = item.options.pose;
+            if (from != to) item.options.pose = fraction == 1 ? to : pose_at(Motion<D>::between(from, to), fraction);
+        }
+    }
 
     const std::map<Id, Item>& items() const { return items_; }
 
@@ -160,6 +194,49 @@ public:
         return result;
     }
 
+    /// The first hit of a sweep of every single item by `sweep_at(item)`, without the neighbours of the item.
+    template <class SweepAt>
+    std::optional<WorldHit<D>> first_hit(const View<D>& shape, const Filter& filter, SweepAt&& sweep_at) const {
+        std::optional<WorldHit<D>> first;
+        for (const auto& [id, item] : items_) {
+            if (!passes(id, item, filter) || both_half_spaces(shape, item.view())) continue;
+            const std::optional<Hit<D>> hit = sweep_at(item);
+            if (hit && (!first || hit->fraction < first->hit.fraction)) first = WorldHit<D>{id, *hit};
+        }
+        return first;
+    }
+
+    /// The contacts of a query shape, sorted: those with surface normals, and the ghosts that none of another item
+    /// covers.
+    std::vector<WorldContact<D>> contacts_of(const View<D>& shape, const Filter& filter, float margin) const {
+        std::vector<std::pair<Id, std::vector<detail::SurfaceContact<D>>>> found;
+        for (const auto& [id, item] : items_) {
+            if (!passes(id, item, filter) || both_half_spaces(shape, item.view())) continue;
+            const auto beside = [&, own = id](const detail::DVec<D>& point, double within,
+                                              detail::ClosestPointVisitor<D> visit) {
+                for (const auto& [other, neighbour] : items_)
+                    if (other != own && passes(other, neighbour, filter))
+                        each_closest_point_on(neighbour.view(), point, within, visit);
+            };
+            const detail::EachClosestPoint<D> neighbours(beside);
+            auto& of_item = found.emplace_back(id, std::vector<detail::SurfaceContact<D>>()).second;
+            each_surface_contact<D>(shape, item.view(), {.margin = margin}, {.of_a = &neighbours},
+                                    [&](const detail::SurfaceContact<D>& each) {
+                                        of_item.push_back(each);
+                                        return true;
+                                    });
+        }
+        std::vector<WorldContact<D>> result;
+        for (const auto& [id, of_item] : found)
+            for (const detail::SurfaceContact<D>& each : of_item) {
+                if (each.surface_normals || !is_covered(id, each, found))
+                    result.push_back({{}, id, each.contact});
+                else if (each.own_area)
+                    result.push_back({{}, id, each.own_area});
+            }
+        return result;
+    }
+
     static bool passes(Id id, const Item& item, const Filter& filter) {
         return (filter.layers & item.options.mask) != 0 && (item.options.layers & filter.mask) != 0 &&
                (filter.sensors || !item.options.sensor) && id != filter.ignore && item.options.enabled &&
@@ -185,12 +262,6 @@ private:
         option = value;
     }
 
-    template <class S>
-    static std::function<View<D>(const Pose<D>&)> placer(const S& shape) {
-        const auto owned_shape = std::make_shared<const decltype(owned(shape))>(owned(shape));
-        return [owned_shape](const Pose<D>& pose) -> View<D> { return abut::view(at(*owned_shape, pose)); };
-    }
-
     using Entry = std::pair<const Id, Item>;
 
     bool may_pair(const Entry& a, const Entry& b) const {
@@ -203,6 +274,18 @@ private:
     static bool both_half_spaces(const View<D>& a, const View<D>& b) {
         return std::holds_alternative<detail::HalfSpaceView<D>>(a) &&
                std::holds_alternative<detail::HalfSpaceView<D>>(b);
+    }
+
+    static bool is_covered(Id id, const detail::SurfaceContact<D>& ghost,
+                           const std::vector<std::pair<Id, std::vector<detail::SurfaceContact<D>>>>& found) {
+        for (const auto& [other, of_item] : found)
+            for (const detail::SurfaceContact<D>& each : of_item)
+                if (other != id && (each.surface_normals || other < id) &&
+                    detail::covers_contact<D>(
+                        detail::DVec<D>(each.contact.normal), static_cast<double>(each.contact.depth),
+                        detail::DVec<D>(ghost.contact.normal), static_cast<double>(ghost.contact.depth), ghost.size))
+                    return true;
+        return false;
     }
 
     static std::vector<IdPair> difference(const std::vector<IdPair>& a, const std::vector<IdPair>& b) {
