@@ -2,14 +2,16 @@
 
 // Compares the answers of a world with those of the reference world, at random, and counts them.
 
-#include "../../oracle/expect.hpp"
 #include "bits.hpp"
 #include "simulation.hpp"
 #include <abut/math/detail/rigid_path.hpp>
 #include <abut/math/thread_pool.hpp>
 
 #include <array>
+#include <iomanip>
 #include <ostream>
+#include <sstream>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -21,6 +23,7 @@ struct Seen {
     int touching = 0, several_touching = 0, nearest = 0, all_nearest = 0;
     int began = 0, stayed = 0, ended = 0, contacts = 0, untested = 0;
     int hits = 0, several_hits = 0, misses = 0, gaps = 0, depths = 0, overlapping = 0, containing = 0, stopped = 0;
+    int reused = 0, edited = 0, restored = 0, past = 0;
     int sweep_hits = 0, sweep_misses = 0, at_once = 0, query_contacts = 0, in_box = 0;
 };
 
@@ -34,7 +37,8 @@ inline std::ostream& operator<<(std::ostream& out, const Seen& seen) {
                << "; touching " << seen.touching << ", several " << seen.several_touching << "; nearest "
                << seen.nearest << ", all there are " << seen.all_nearest << "; sweeps that hit " << seen.sweep_hits
                << ", at once " << seen.at_once << ", miss " << seen.sweep_misses << "; contacts of shapes "
-               << seen.query_contacts;
+               << seen.query_contacts << "; reused " << seen.reused << ", edited " << seen.edited << ", restored "
+               << seen.restored << ", of the past " << seen.past;
 }
 
 /// The questions to a world, which may be the past of the game's.
@@ -287,6 +291,18 @@ private:
         }
     }
 
+    static std::string shown(const std::optional<WorldHit<D>>& hit) {
+        if (!hit) return "\nno hit";
+        std::ostringstream text;
+        text << std::setprecision(9) << "\nitem " << hit->id.index << " at fraction " << hit->hit.fraction << ", point";
+        for (int i = 0; i < D; ++i) text << " " << hit->hit.point[i];
+        text << ", normal";
+        for (int i = 0; i < D; ++i) text << " " << hit->hit.normal[i];
+        text << ", part " << hit->hit.feature.part << ", feature " << hit->hit.feature.index << " of kind "
+             << static_cast<int>(hit->hit.feature.kind);
+        return text.str();
+    }
+
     /// Compares two hits. If several items touch at the hit, the normal is that of their union, and only its side is
     /// compared: it faces the mover, which moves along `motion(hit)`.
     template <class MotionAt>
@@ -297,17 +313,14 @@ private:
             int near = 0;
             for (const auto& [id, item] : reference_.items())
                 near += closest(item.view(), found->hit.point).distance < 3 * 1e-3 * detail::size(mover) ? 1 : 0;
-            // The normal of a single composite is filtered twice, and rounded each time.
+            // The normal of a single composite is filtered twice. At an edge, the second result depends on the first.
             const double off = length(DVec<D>(found->hit.normal) - DVec<D>(expected->hit.normal));
-            EXPECT_TRUE(near > 1 || off < 1e-6) << off;
+            EXPECT_TRUE(near > 1 || off < 1e-3) << off << shown(found) << shown(expected);
             EXPECT_NEAR(length(DVec<D>(found->hit.normal)), 1, 1e-6);
-            EXPECT_LT(dot(DVec<D>(found->hit.normal), motion(found->hit)), 0)
-                << "at " << oracle::text(found->hit.point) << ", fraction " << found->hit.fraction << ": normal "
-                << oracle::text(found->hit.normal) << ", alone " << oracle::text(expected->hit.normal) << ", item "
-                << found->id.index << ", motion of the point " << oracle::text(detail::to_float(motion(found->hit)));
-            expected->hit.normal = found->hit.normal;
+            EXPECT_LT(dot(DVec<D>(found->hit.normal), motion(found->hit)), 0) << shown(found) << shown(expected);
         }
-        EXPECT_EQ(Bits(found), Bits(expected));
+        if (found && expected) expected->hit.normal = found->hit.normal;  // 0 may be -0
+        EXPECT_TRUE(Bits(found) == Bits(expected)) << shown(found) << shown(expected);
         ++(found ? seen_.sweep_hits : seen_.sweep_misses);
         seen_.at_once += found && found->hit.fraction == 0 ? 1 : 0;
     }
