@@ -29,7 +29,7 @@ std::string_view name_of(EntryKind kind) {
 /// The parts from a little before the one of this index on, as far as a few lines hold them.
 std::string text_of_parts(const std::vector<std::pair<std::string, std::string>>& parts, std::size_t index) {
     constexpr std::size_t max_size = 400, max_before = 8;
-    const std::size_t first = index > max_before ? index : 0;
+    const std::size_t first = index > max_before ? index - 2 : 0;
     std::string text;
     for (std::size_t i = first; i < parts.size(); ++i) {
         if (text.size() > max_size) return text + ", ...";

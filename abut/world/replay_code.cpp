@@ -220,8 +220,8 @@ std::string text_of_question(const Entry<D>& entry, const std::string& shape) {
         case Kind::containing:
             return call + "containing(" + point + filter + ");\n" + all_ids;
         default:
-            return with_shape + "    world.each_contact(\n        shape,\n        [](Id id, const Contact" + d +
-                   "& contact) {\n            std::printf(\"item %u, depth %a, normal" + axes +
+            return with_shape + "    world.each_contact(\n        shape,\n        [](Id id, const Contact<" + d +
+                   ">& contact) {\n            std::printf(\"item %u, depth %a, normal" + axes +
                    "\\n\", id.index, contact.depth" + numbers("contact.normal") + ");\n        }" + filter +
                    ", {.margin = " + text(entry.margin) + ", .back_faces = " + (entry.back_faces ? "true" : "false") +
                    "});\n";

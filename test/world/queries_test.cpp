@@ -220,5 +220,22 @@ TEST(Queries, ShapesWithoutPartsAreNowhere) {
     });
 }
 
+// Regression: after an update with continuous items, a box found an item at any place of its motion.
+TEST(Queries, BoxFindsItemsWhereTheyAre) {
+    World2 world;
+    const Id bullet = world.add(unit, {.continuous = true});
+    world.update();
+    world.move(bullet, place(20));
+    const auto found_at = [&](float x) {
+        int found = 0;
+        world.each_in_box(Aabb2{{x - 1, -1}, {x + 1, 1}}, [&](Id, const View<2>&) { ++found; });
+        return found;
+    };
+    before_and_after_update(world, [&] {
+        EXPECT_EQ(found_at(10), 0);
+        EXPECT_EQ(found_at(20), 1);
+    });
+}
+
 }  // namespace
 }  // namespace abut::test
