@@ -24,21 +24,29 @@ class ReferenceWorld {
 public:
     struct Item {
         std::function<View<D>(const Pose<D>&)> placed;
+        AnyShape<D> any_shape;
         std::shared_ptr<const void> shape;  ///< of this type, which users of the library may do without
         const std::type_info* type = nullptr;
         ItemOptions<D> options;
         bool changed = true;
-        bool settled = false;           ///< present at the last update with this shape
-        std::optional<Pose<D>> before;  ///< the pose at the last update, if the item has moved since
+        bool edited = false;                 ///< changed as well, but pairs may be far from where
+        bool settled = false;                ///< present at the last update with this shape
+        std::optional<Pose<D>> before = {};  ///< the pose at the last update, if the item has moved since
 
         View<D> view() const { return placed(options.pose); }
+        /// The box of the world's broad phases, by which items are near.
+        Aabb<D> box() const { return any_shape.bounds_for_queries(options.pose); }
     };
 
     template <class S>
     void add(Id id, const S& shape, const ItemOptions<D>& options) {
         const auto stored = std::make_shared<const decltype(owned(shape))>(owned(shape));
         const auto placed = [stored](const Pose<D>& pose) -> View<D> { return abut::view(at(*stored, pose)); };
-        items_[id] = {placed, stored, &typeid(decltype(owned(shape))), options, true, false, std::nullopt};
+        items_.insert_or_assign(id, Item{.placed = placed,
+                                         .any_shape = shape,
+                                         .shape = stored,
+                                         .type = &typeid(decltype(owned(shape))),
+                                         .options = options});
     }
     template <class S>
     void set_shape(Id id, const S& shape) {
@@ -49,7 +57,10 @@ public:
         if (*items_.at(id).type != typeid(S)) return false;
         S edited = *static_cast<const S*>(items_.at(id).shape.get());
         edit(edited);
+        const bool was_changed = items_.at(id).changed;
         set_shape(id, edited);
+        items_.at(id).changed = was_changed;
+        items_.at(id).edited = true;
         return true;
     }
     void move(Id id, const Pose<D>& pose) {
@@ -130,7 +141,7 @@ public:
         passed = passed_.size();
         pair_filter_changed = false;
         for (auto& [id, item] : items_) {
-            item.changed = false;
+            item.changed = item.edited = false;
             item.settled = true;
             item.before.reset();
         }
@@ -304,7 +315,8 @@ private:
         const ItemOptions<D>&p = a.second.options, &q = b.second.options;
         const View<D> view_a = a.second.view(), view_b = b.second.view();
         if ((p.fixed && q.fixed) || !may_pair(a, b)) return;
-        const bool changed = a.second.changed || b.second.changed, may_change = changed || pair_filter_changed;
+        const bool changed = a.second.changed || b.second.changed,
+                   may_change = changed || a.second.edited || b.second.edited || pair_filter_changed;
         count(overlaps(detail::bounds(view_a), detail::bounds(view_b)), changed, min_counts);
         count(overlaps(widened(detail::bounds(view_a)), widened(detail::bounds(view_b))), may_change, max_counts);
         const IdPair pair{a.first, b.first};
@@ -316,7 +328,7 @@ private:
         }
         if (touch) touching_.push_back(pair);
         if ((!p.continuous && !q.continuous) || (!a.second.before && !b.second.before)) return;
-        if (changed && !touch) ++max_counts.near, ++max_counts.tested;
+        if (may_change && !touch) ++max_counts.near, ++max_counts.tested;
         if (std::binary_search(last_touching_.begin(), last_touching_.end(), pair)) return;
         const std::optional<Hit<D>> hit = sweep_between(a.second, b.second);
         if (hit) impacts_[pair] = *hit;
@@ -358,14 +370,12 @@ private:
     /// sensors, and have boxes that overlap its own.
     auto others(const Entry& item, const Entry& but) const {
         return [this, &item, &but](const detail::DVec<D>& point, double within, detail::ClosestPointVisitor<D> visit) {
-            const View<D> own = item.second.view();
+            const Aabb<D> own = item.second.box();
             for (const Entry& other : items_) {
                 const ItemOptions<D>& q = other.second.options;
-                const View<D> view = other.second.view();
                 if (other.first == item.first || other.first == but.first || q.sensor) continue;
                 if (!may_pair(item, other)) continue;
-                if (overlaps(detail::bounds(own), detail::bounds(view)))
-                    each_closest_point_on(view, point, within, visit);
+                if (overlaps(own, other.second.box())) each_closest_point_on(other.second.view(), point, within, visit);
             }
         };
     }
