@@ -335,8 +335,9 @@ private:
         if (hit && !touch) passed_.push_back(pair);
     }
 
-    /// Adds the contact with the surfaces of the neighbours to found_. Two balls have no edges, and an item whose
-    /// centre a neighbour contains has no surface. Returns false if the items don't touch.
+    /// Adds the contact with the surfaces of the neighbours to found_. Two balls have no edges. An item whose centre a
+    /// neighbour contains has no surface, nor does one with a single neighbour: its contact is reported in any case.
+    /// Returns false if the items don't touch.
     bool find_contact(const Entry& a, const Entry& b, const View<D>& view_a, const View<D>& view_b) {
         const auto others_of_a = others(a, b), others_of_b = others(b, a);
         const detail::EachClosestPoint<D> of_a(others_of_a), of_b(others_of_b);
@@ -354,7 +355,7 @@ private:
         return convex != nullptr && convex->core == detail::Core::points && convex->count == 1;
     }
     bool is_filtered(const Entry& item) const {
-        if (item.second.options.fixed) return false;
+        if (item.second.options.fixed || neighbour_count(item) < 2) return false;
         const auto ball = detail::SmallBall<D>::around(detail::bounding_ball(item.second.placed({})));
         if (!std::isfinite(ball.radius)) return true;
         const detail::DVec<D> middle = detail::affine(item.second.options.pose).point(detail::DVec<D>(ball.center));
@@ -366,17 +367,21 @@ private:
         return !is_inside;
     }
 
-    /// Visits the closest points on the neighbours of an item, except on `but`: items that pair with it, are no
-    /// sensors, and have boxes that overlap its own.
+    /// Whether two items continue each other's surface: they pair, are no sensors, and have boxes that overlap.
+    bool are_neighbours(const Entry& item, const Entry& other) const {
+        return other.first != item.first && !other.second.options.sensor && may_pair(item, other) &&
+               overlaps(item.second.box(), other.second.box());
+    }
+    std::ptrdiff_t neighbour_count(const Entry& item) const {
+        return std::count_if(items_.begin(), items_.end(),
+                             [&](const Entry& other) { return are_neighbours(item, other); });
+    }
+    /// Visits the closest points on the neighbours of an item, except on `but`.
     auto others(const Entry& item, const Entry& but) const {
         return [this, &item, &but](const detail::DVec<D>& point, double within, detail::ClosestPointVisitor<D> visit) {
-            const Aabb<D> own = item.second.box();
-            for (const Entry& other : items_) {
-                const ItemOptions<D>& q = other.second.options;
-                if (other.first == item.first || other.first == but.first || q.sensor) continue;
-                if (!may_pair(item, other)) continue;
-                if (overlaps(own, other.second.box())) each_closest_point_on(other.second.view(), point, within, visit);
-            }
+            for (const Entry& other : items_)
+                if (other.first != but.first && are_neighbours(item, other))
+                    each_closest_point_on(other.second.view(), point, within, visit);
         };
     }
 
