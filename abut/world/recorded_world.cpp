@@ -140,10 +140,7 @@ void RecordedWorld<D>::write_item_shape(Entry& entry, Id id) {
 
 template <int D>
 void RecordedWorld<D>::record_add(Id id) {
-    Entry entry;
-    entry.kind = EntryKind::add;
-    entry.id = id;
-    entry.options = world_.options(id);
+    Entry entry{.kind = EntryKind::add, .id = id, .options = world_.options(id)};
     write_item_shape(entry, id);
     record(entry);
 }
@@ -151,9 +148,7 @@ void RecordedWorld<D>::record_add(Id id) {
 template <int D>
 void RecordedWorld<D>::record_shape(Id id) {
     if (!world_.contains(id)) return;
-    Entry entry;
-    entry.kind = EntryKind::set_shape;
-    entry.id = id;
+    Entry entry{.kind = EntryKind::set_shape, .id = id};
     write_item_shape(entry, id);
     record(entry);
 }
@@ -162,10 +157,7 @@ template <int D>
 void RecordedWorld<D>::move(Id id, const Pose<D>& pose) {
     world_.move(id, pose);
     if (!world_.contains(id)) return;
-    Entry entry;
-    entry.kind = EntryKind::move;
-    entry.id = id;
-    entry.from = pose;
+    Entry entry{.kind = EntryKind::move, .id = id, .from = pose};
     if (!detail::is_finite(pose))
         end({ProblemCode::not_finite, "the pose of item " + std::to_string(id.index) + " is not finite", id.index});
     record(entry);
@@ -178,9 +170,7 @@ void RecordedWorld<D>::move(std::span<const Id> ids, std::span<const Pose<D>> po
 
 template <int D>
 void RecordedWorld<D>::remove(Id id) {
-    Entry entry;
-    entry.kind = EntryKind::remove;
-    entry.id = id;
+    Entry entry{.kind = EntryKind::remove, .id = id};
     if (world_.contains(id)) record(entry);
     world_.remove(id);
 }
@@ -194,11 +184,10 @@ template <int D>
 template <class T>
 void RecordedWorld<D>::record_option(Id id, std::uint8_t option, T value, std::uint64_t mask) {
     if (!world_.contains(id)) return;
-    Entry entry;
-    entry.kind = EntryKind::set_option;
-    entry.id = id;
-    entry.option = ItemOption{option};
-    entry.values = {static_cast<std::uint64_t>(value), mask};
+    Entry entry{.kind = EntryKind::set_option,
+                .id = id,
+                .option = ItemOption{option},
+                .values = {static_cast<std::uint64_t>(value), mask}};
     record(entry);
 }
 
@@ -253,9 +242,7 @@ void RecordedWorld<D>::set_pair_filter(std::function<bool(Id, Id)> accepts) {
 template <int D>
 std::vector<std::byte> RecordedWorld<D>::save() {
     std::vector<std::byte> bytes = world_.save();
-    Entry entry;
-    entry.kind = EntryKind::save;
-    entry.answer = encoded(ListHash{bytes.size(), blob_checksum(bytes)});
+    Entry entry{.kind = EntryKind::save, .answer = encoded(ListHash{bytes.size(), blob_checksum(bytes)})};
     record(entry);
     return bytes;
 }
@@ -263,8 +250,7 @@ std::vector<std::byte> RecordedWorld<D>::save() {
 template <int D>
 std::optional<Problem> RecordedWorld<D>::restore(std::span<const std::byte> bytes) {
     std::optional<Problem> problem = world_.restore(bytes);
-    Entry entry;
-    entry.kind = EntryKind::restore;
+    Entry entry{.kind = EntryKind::restore};
     entry.bytes.assign(bytes.begin(), bytes.end());
     entry.answer = encoded(!problem);
     // A snapshot from before the recording may have brought back shapes that are not in the file.
@@ -291,9 +277,7 @@ Events RecordedWorld<D>::updated(Executor* executor) {
     const Events events = executor != nullptr ? world_.update(*executor) : world_.update();
     has_events_ = true;
     if (!is_recording()) return events;
-    Entry entry;
-    entry.kind = EntryKind::update;
-    entry.has_pair_filter = static_cast<bool>(pair_filter_);
+    Entry entry{.kind = EntryKind::update, .has_pair_filter = static_cast<bool>(pair_filter_)};
     std::sort(refused_pairs_.begin(), refused_pairs_.end());
     refused_pairs_.erase(std::unique(refused_pairs_.begin(), refused_pairs_.end()), refused_pairs_.end());
     entry.refused = refused_pairs_;
@@ -321,46 +305,34 @@ auto RecordedWorld<D>::query(Entry entry, const View<D>* shape, const Filter& fi
 
 template <int D>
 std::vector<Id> RecordedWorld<D>::touching(Id id) const {
-    Entry entry;
-    entry.kind = EntryKind::touching;
-    entry.id = id;
+    Entry entry{.kind = EntryKind::touching, .id = id};
     if (!world_.contains(id)) return world_.touching(id);
     return query(entry, nullptr, {}, [&](const Filter&) { return world_.touching(id); });
 }
 template <int D>
 Contact<D> RecordedWorld<D>::contact(const IdPair& pair) const {
-    Entry entry;
-    entry.kind = EntryKind::contact;
-    entry.pair = pair;
+    Entry entry{.kind = EntryKind::contact, .pair = pair};
     return query(entry, nullptr, {}, [&](const Filter&) { return world_.contact(pair); });
 }
 template <int D>
 std::optional<Hit<D>> RecordedWorld<D>::impact(const IdPair& pair) const {
-    Entry entry;
-    entry.kind = EntryKind::impact;
-    entry.pair = pair;
+    Entry entry{.kind = EntryKind::impact, .pair = pair};
     return query(entry, nullptr, {}, [&](const Filter&) { return world_.impact(pair); });
 }
 
 template <int D>
 std::optional<WorldHit<D>> RecordedWorld<D>::raycast(const Ray<D>& ray, const Filter& filter) const {
-    Entry entry;
-    entry.kind = EntryKind::raycast;
-    entry.ray = ray;
+    Entry entry{.kind = EntryKind::raycast, .ray = ray};
     return query(entry, nullptr, filter, [&](const Filter& noted) { return world_.raycast(ray, noted); });
 }
 template <int D>
 bool RecordedWorld<D>::raycast_any(const Ray<D>& ray, const Filter& filter) const {
-    Entry entry;
-    entry.kind = EntryKind::raycast_any;
-    entry.ray = ray;
+    Entry entry{.kind = EntryKind::raycast_any, .ray = ray};
     return query(entry, nullptr, filter, [&](const Filter& noted) { return world_.raycast_any(ray, noted); });
 }
 template <int D>
 std::vector<WorldHit<D>> RecordedWorld<D>::raycast_all(const Ray<D>& ray, const Filter& filter) const {
-    Entry entry;
-    entry.kind = EntryKind::raycast_all;
-    entry.ray = ray;
+    Entry entry{.kind = EntryKind::raycast_all, .ray = ray};
     return query(entry, nullptr, filter, [&](const Filter& noted) { return world_.raycast_all(ray, noted); });
 }
 template <int D>
@@ -371,34 +343,25 @@ void RecordedWorld<D>::raycast(std::span<const Ray<D>> rays, Hits hits, const Fi
 template <int D>
 std::optional<WorldHit<D>> RecordedWorld<D>::sweep_view(const View<D>& shape, const Vec<D>& motion,
                                                         const Filter& filter) const {
-    Entry entry;
-    entry.kind = EntryKind::sweep;
-    entry.vector = motion;
+    Entry entry{.kind = EntryKind::sweep, .vector = motion};
     return query(entry, &shape, filter, [&](const Filter& noted) { return world_.sweep(shape, motion, noted); });
 }
 template <int D>
 std::optional<WorldHit<D>> RecordedWorld<D>::sweep_view(const View<D>& shape, const Motion<D>& motion,
                                                         const Filter& filter) const {
-    Entry entry;
-    entry.kind = EntryKind::sweep_motion;
-    entry.motion = motion;
+    Entry entry{.kind = EntryKind::sweep_motion, .motion = motion};
     return query(entry, &shape, filter, [&](const Filter& noted) { return world_.sweep(shape, motion, noted); });
 }
 template <int D>
 std::optional<WorldHit<D>> RecordedWorld<D>::sweep_view(const View<D>& shape, const Pose<D>& from, const Pose<D>& to,
                                                         const Filter& filter) const {
-    Entry entry;
-    entry.kind = EntryKind::sweep_poses;
-    entry.from = from;
-    entry.to = to;
+    Entry entry{.kind = EntryKind::sweep_poses, .from = from, .to = to};
     return query(entry, &shape, filter, [&](const Filter& noted) { return world_.sweep(shape, from, to, noted); });
 }
 
 template <int D>
 std::optional<WorldClosest<D>> RecordedWorld<D>::closest(const Vec<D>& point, const Filter& filter) const {
-    Entry entry;
-    entry.kind = EntryKind::closest_to_point;
-    entry.vector = point;
+    Entry entry{.kind = EntryKind::closest_to_point, .vector = point};
     return query(entry, nullptr, filter, [&](const Filter& noted) { return world_.closest(point, noted); });
 }
 template <int D>
@@ -407,17 +370,13 @@ void RecordedWorld<D>::closest(std::span<const Vec<D>> points, ClosestItems item
 }
 template <int D>
 std::optional<WorldClosest<D>> RecordedWorld<D>::closest_to(const View<D>& shape, const Filter& filter) const {
-    Entry entry;
-    entry.kind = EntryKind::closest;
+    Entry entry{.kind = EntryKind::closest};
     return query(entry, &shape, filter, [&](const Filter& noted) { return world_.closest(shape, noted); });
 }
 template <int D>
 std::optional<WorldClosest<D>> RecordedWorld<D>::closest_at(const View<D>& shape, const Pose<D>& pose,
                                                             const Filter& filter) const {
-    Entry entry;
-    entry.kind = EntryKind::closest;
-    entry.is_placed = true;
-    entry.from = pose;
+    Entry entry{.kind = EntryKind::closest, .from = pose, .is_placed = true};
     return query(entry, &shape, filter,
                  [&](const Filter& noted) { return world_.closest(detail::moved(shape, affine(pose)), noted); });
 }
@@ -425,25 +384,21 @@ std::optional<WorldClosest<D>> RecordedWorld<D>::closest_at(const View<D>& shape
 template <int D>
 std::vector<WorldClosest<D>> RecordedWorld<D>::k_nearest(const Vec<D>& point, std::size_t k,
                                                          const Filter& filter) const {
-    Entry entry;
-    entry.kind = EntryKind::k_nearest_to_point;
-    entry.vector = point;
+    Entry entry{.kind = EntryKind::k_nearest_to_point, .vector = point};
     entry.values[0] = k;
     return query(entry, nullptr, filter, [&](const Filter& noted) { return world_.k_nearest(point, k, noted); });
 }
 template <int D>
 std::vector<WorldClosest<D>> RecordedWorld<D>::nearest_to(const View<D>& shape, std::size_t k,
                                                           const Filter& filter) const {
-    Entry entry;
-    entry.kind = EntryKind::k_nearest;
+    Entry entry{.kind = EntryKind::k_nearest};
     entry.values[0] = k;
     return query(entry, &shape, filter, [&](const Filter& noted) { return world_.k_nearest(shape, k, noted); });
 }
 
 template <int D>
 std::vector<Id> RecordedWorld<D>::all_overlapping(const View<D>& shape, const Filter& filter) const {
-    Entry entry;
-    entry.kind = EntryKind::overlapping;
+    Entry entry{.kind = EntryKind::overlapping};
     return query(entry, &shape, filter, [&](const Filter& noted) { return world_.overlapping(shape, noted); });
 }
 template <int D>
@@ -451,10 +406,7 @@ void RecordedWorld<D>::overlapping_at(const View<D>& shape, std::span<const Pose
                                       const Filter& filter) const {
     world_.overlapping(shape, poses, lists, filter);
     for (const Pose<D>& pose : poses) {
-        Entry entry;
-        entry.kind = EntryKind::overlapping;
-        entry.is_placed = true;
-        entry.from = pose;
+        Entry entry{.kind = EntryKind::overlapping, .from = pose, .is_placed = true};
         (void)query(entry, &shape, filter,
                     [&](const Filter& noted) { return world_.overlapping(detail::moved(shape, affine(pose)), noted); });
     }
@@ -462,19 +414,14 @@ void RecordedWorld<D>::overlapping_at(const View<D>& shape, std::span<const Pose
 
 template <int D>
 std::vector<Id> RecordedWorld<D>::containing(const Vec<D>& point, const Filter& filter) const {
-    Entry entry;
-    entry.kind = EntryKind::containing;
-    entry.vector = point;
+    Entry entry{.kind = EntryKind::containing, .vector = point};
     return query(entry, nullptr, filter, [&](const Filter& noted) { return world_.containing(point, noted); });
 }
 
 template <int D>
 std::vector<WorldContact<D>> RecordedWorld<D>::all_contacts(const View<D>& shape, const Filter& filter,
                                                             const QueryOptions<D>& options) const {
-    Entry entry;
-    entry.kind = EntryKind::each_contact;
-    entry.margin = options.margin;
-    entry.back_faces = options.back_faces;
+    Entry entry{.kind = EntryKind::each_contact, .margin = options.margin, .back_faces = options.back_faces};
     return query(entry, &shape, filter,
                  [&](const Filter& noted) { return detail::contacts_of(world_, shape, noted, options); });
 }

@@ -92,14 +92,20 @@ struct Entry {
     bool is_placed = false;  ///< the question is about `at(shape, from)`
     float margin = 0;
     bool back_faces = true;
-    RecordedFilter filter;
+    RecordedFilter filter{};
     bool has_pair_filter = false;
-    std::vector<IdPair> refused;
-    std::vector<std::byte> bytes;  ///< of a shape or a snapshot
-    std::vector<std::byte> answer;
+    std::vector<IdPair> refused{};
+    std::vector<std::byte> bytes{};  ///< of a shape or a snapshot
+    std::vector<std::byte> answer{};
 };
 
 // The names and members of what is recorded: visit(name, member).
+
+template <class V, class T, class... Rest>
+void visit_fields(V& visit, const char* name, T& member, Rest&&... rest) {
+    visit(name, member);
+    if constexpr (sizeof...(rest) > 0) visit_fields(visit, rest...);
+}
 
 template <class V, int N>
 void describe(V& visit, glm::vec<N, float>& v) {
@@ -108,138 +114,92 @@ void describe(V& visit, glm::vec<N, float>& v) {
 }
 template <class V>
 void describe(V& visit, Pose<2>& pose) {
-    visit("position", pose.position);
-    visit("cos", pose.rotation.cos);
-    visit("sin", pose.rotation.sin);
+    visit_fields(visit, "position", pose.position, "cos", pose.rotation.cos, "sin", pose.rotation.sin);
 }
 template <class V>
 void describe(V& visit, Pose<3>& pose) {
-    visit("position", pose.position);
-    visit("qw", pose.rotation.w);
-    visit("qx", pose.rotation.x);
-    visit("qy", pose.rotation.y);
-    visit("qz", pose.rotation.z);
+    visit_fields(visit, "position", pose.position, "qw", pose.rotation.w, "qx", pose.rotation.x, "qy", pose.rotation.y,
+                 "qz", pose.rotation.z);
 }
 template <class V, int D>
 void describe(V& visit, Motion<D>& motion) {
-    visit("from", motion.from);
-    visit("move", motion.move);
-    visit("turn", motion.turn);
+    visit_fields(visit, "from", motion.from, "move", motion.move, "turn", motion.turn);
 }
 template <class V, int D>
 void describe(V& visit, Ray<D>& ray) {
-    visit("origin", ray.origin);
-    visit("direction", ray.direction);
-    visit("length", ray.length);
+    visit_fields(visit, "origin", ray.origin, "direction", ray.direction, "length", ray.length);
 }
 template <class V>
 void describe(V& visit, Id& id) {
-    visit("index", id.index);
-    visit("generation", id.generation);
+    visit_fields(visit, "index", id.index, "generation", id.generation);
 }
 template <class V>
 void describe(V& visit, IdPair& pair) {
-    visit("a", pair.a);
-    visit("b", pair.b);
+    visit_fields(visit, "a", pair.a, "b", pair.b);
 }
 template <class V, int D>
 void describe(V& visit, ItemOptions<D>& options) {
-    visit("pose", options.pose);
-    visit("user", options.user);
-    visit("layers", options.layers);
-    visit("mask", options.mask);
-    visit("fixed", options.fixed);
-    visit("sensor", options.sensor);
-    visit("continuous", options.continuous);
-    visit("group", options.group);
-    visit("enabled", options.enabled);
+    visit_fields(visit, "pose", options.pose, "user", options.user, "layers", options.layers, "mask", options.mask,
+                 "fixed", options.fixed, "sensor", options.sensor, "continuous", options.continuous, "group",
+                 options.group, "enabled", options.enabled);
 }
 template <class V>
 void describe(V& visit, RecordedFilter& filter) {
-    visit("layers", filter.layers);
-    visit("mask", filter.mask);
-    visit("sensors", filter.sensors);
-    visit("ignore", filter.ignore);
-    visit("ignore_ids", filter.ignore_ids);
-    visit("refused", filter.refused);
+    visit_fields(visit, "layers", filter.layers, "mask", filter.mask, "sensors", filter.sensors, "ignore",
+                 filter.ignore, "ignore_ids", filter.ignore_ids, "refused", filter.refused);
 }
 template <class V>
 void describe(V& visit, Feature& feature) {
-    visit("part", feature.part);
-    visit("index", feature.index);
-    visit("kind", feature.kind);
+    visit_fields(visit, "part", feature.part, "index", feature.index, "kind", feature.kind);
 }
 template <class V, int D>
 void describe(V& visit, Hit<D>& hit) {
-    visit("fraction", hit.fraction);
-    visit("distance", hit.distance);
-    visit("point", hit.point);
-    visit("normal", hit.normal);
-    visit("started_inside", hit.started_inside);
-    visit("feature", hit.feature);
+    visit_fields(visit, "fraction", hit.fraction, "distance", hit.distance, "point", hit.point, "normal", hit.normal,
+                 "started_inside", hit.started_inside, "feature", hit.feature);
 }
 template <class V, int D>
 void describe(V& visit, Closest<D>& closest) {
-    visit("distance", closest.distance);
-    visit("normal", closest.normal);
-    visit("on_a", closest.on_a);
-    visit("on_b", closest.on_b);
-    visit("feature_a", closest.feature_a);
-    visit("feature_b", closest.feature_b);
+    visit_fields(visit, "distance", closest.distance, "normal", closest.normal, "on_a", closest.on_a, "on_b",
+                 closest.on_b, "feature_a", closest.feature_a, "feature_b", closest.feature_b);
 }
 template <class V, int D>
 void describe(V& visit, ContactPoint<D>& point) {
-    visit("position", point.position);
-    visit("depth", point.depth);
-    visit("feature", point.feature);
+    visit_fields(visit, "position", point.position, "depth", point.depth, "feature", point.feature);
 }
 template <class V, int D>
 void describe(V& visit, Contact<D>& contact) {
-    visit("normal", contact.normal);
-    visit("depth", contact.depth);
+    visit_fields(visit, "normal", contact.normal, "depth", contact.depth);
     std::vector<ContactPoint<D>> points(contact.points.begin(), contact.points.end());
     visit("points", points);
     contact.points.clear();
     for (std::size_t i = 0; i < std::min(points.size(), ContactPoints<D>::capacity); ++i)
         contact.points.push_back(points[i]);
-    visit("feature_a", contact.feature_a);
-    visit("feature_b", contact.feature_b);
+    visit_fields(visit, "feature_a", contact.feature_a, "feature_b", contact.feature_b);
 }
 template <class V, int D>
 void describe(V& visit, WorldHit<D>& hit) {
-    visit("id", hit.id);
-    visit("hit", hit.hit);
+    visit_fields(visit, "id", hit.id, "hit", hit.hit);
 }
 template <class V, int D>
 void describe(V& visit, WorldClosest<D>& closest) {
-    visit("id", closest.id);
-    visit("closest", closest.closest);
+    visit_fields(visit, "id", closest.id, "closest", closest.closest);
 }
 template <class V, int D>
 void describe(V& visit, WorldContact<D>& contact) {
-    visit("a", contact.a);
-    visit("b", contact.b);
-    visit("contact", contact.contact);
+    visit_fields(visit, "a", contact.a, "b", contact.b, "contact", contact.contact);
 }
 template <class V, int D>
 void describe(V& visit, WorldImpact<D>& impact) {
-    visit("a", impact.a);
-    visit("b", impact.b);
-    visit("hit", impact.hit);
+    visit_fields(visit, "a", impact.a, "b", impact.b, "hit", impact.hit);
 }
 template <class V>
 void describe(V& visit, ListHash& list) {
-    visit("size", list.size);
-    visit("hash", list.hash);
+    visit_fields(visit, "size", list.size, "hash", list.hash);
 }
 template <class V>
 void describe(V& visit, UpdateHashes& answer) {
-    visit("began", answer.began);
-    visit("stayed", answer.stayed);
-    visit("ended", answer.ended);
-    visit("fractions", answer.fractions);
-    visit("contacts", answer.contacts);
-    visit("impacts", answer.impacts);
+    visit_fields(visit, "began", answer.began, "stayed", answer.stayed, "ended", answer.ended, "fractions",
+                 answer.fractions, "contacts", answer.contacts, "impacts", answer.impacts);
 }
 
 inline bool is_question(EntryKind kind) {
@@ -255,33 +215,24 @@ template <class V, int D>
 void describe(V& visit, Entry<D>& e) {
     using Kind = EntryKind;
     const auto shape_and_place = [&] {
-        visit("shape", e.shape);
-        visit("is_placed", e.is_placed);
+        visit_fields(visit, "shape", e.shape, "is_placed", e.is_placed);
         if (e.is_placed) visit("pose", e.from);
     };
     switch (e.kind) {
         case Kind::shape:
-            visit("shape", e.shape);
-            visit("bytes", e.bytes);
+            visit_fields(visit, "shape", e.shape, "bytes", e.bytes);
             break;
         case Kind::add:
-            visit("id", e.id);
-            visit("shape", e.shape);
-            visit("options", e.options);
+            visit_fields(visit, "id", e.id, "shape", e.shape, "options", e.options);
             break;
         case Kind::set_shape:
-            visit("id", e.id);
-            visit("shape", e.shape);
+            visit_fields(visit, "id", e.id, "shape", e.shape);
             break;
         case Kind::move:
-            visit("id", e.id);
-            visit("pose", e.from);
+            visit_fields(visit, "id", e.id, "pose", e.from);
             break;
         case Kind::set_option:
-            visit("id", e.id);
-            visit("option", e.option);
-            visit("value", e.values[0]);
-            visit("mask", e.values[1]);
+            visit_fields(visit, "id", e.id, "option", e.option, "value", e.values[0], "mask", e.values[1]);
             break;
         case Kind::remove:
         case Kind::touching:
@@ -294,8 +245,7 @@ void describe(V& visit, Entry<D>& e) {
             visit("bytes", e.bytes);
             break;
         case Kind::update:
-            visit("has_pair_filter", e.has_pair_filter);
-            visit("refused", e.refused);
+            visit_fields(visit, "has_pair_filter", e.has_pair_filter, "refused", e.refused);
             break;
         case Kind::raycast:
         case Kind::raycast_any:
@@ -303,17 +253,13 @@ void describe(V& visit, Entry<D>& e) {
             visit("ray", e.ray);
             break;
         case Kind::sweep:
-            visit("shape", e.shape);
-            visit("motion", e.vector);
+            visit_fields(visit, "shape", e.shape, "motion", e.vector);
             break;
         case Kind::sweep_motion:
-            visit("shape", e.shape);
-            visit("motion", e.motion);
+            visit_fields(visit, "shape", e.shape, "motion", e.motion);
             break;
         case Kind::sweep_poses:
-            visit("shape", e.shape);
-            visit("from", e.from);
-            visit("to", e.to);
+            visit_fields(visit, "shape", e.shape, "from", e.from, "to", e.to);
             break;
         case Kind::k_nearest:
             visit("k", e.values[0]);
@@ -324,17 +270,14 @@ void describe(V& visit, Entry<D>& e) {
             shape_and_place();
             break;
         case Kind::k_nearest_to_point:
-            visit("k", e.values[0]);
-            visit("point", e.vector);
+            visit_fields(visit, "k", e.values[0], "point", e.vector);
             break;
         case Kind::closest_to_point:
         case Kind::containing:
             visit("point", e.vector);
             break;
         case Kind::each_contact:
-            visit("shape", e.shape);
-            visit("margin", e.margin);
-            visit("back_faces", e.back_faces);
+            visit_fields(visit, "shape", e.shape, "margin", e.margin, "back_faces", e.back_faces);
             break;
         case Kind::contact:
         case Kind::impact:
