@@ -382,22 +382,31 @@ void DocumentReader::read_roots() {
         for (std::size_t i = 0; i < listed.size(); ++i) listed[i] = parents_[i] == no_index;
     } else {
         const Json* scene = member(root_, "scene");
-        const std::size_t shown = scene == nullptr ? 0 : index(*scene, scenes->size(), {"scene", 0}, "scene");
+        const std::size_t number = scene == nullptr ? 0 : index(*scene, scenes->size(), {"scene", 0}, "scene");
         std::size_t i = 0;
         each("scenes", [&](const Json& json, const Where& where) {
-            if (i++ != shown) return;
+            if (i++ != number) return;
             each_member(json, "nodes", where, [&](const Json& node) {
                 const std::uint32_t root = index(node, listed.size(), where, "nodes");
                 if (root != no_index) listed[root] = true;
             });
         });
     }
-    for (std::uint32_t i = 0; i < listed.size(); ++i) {
-        bool has_listed_ancestor = false;
-        for (std::uint32_t ancestor = parents_[i]; ancestor != no_index; ancestor = parents_[ancestor])
-            has_listed_ancestor = has_listed_ancestor || listed[ancestor];
-        if (listed[i] && !has_listed_ancestor) document_.roots.push_back(i);
-    }
+    // Whether a node is shown, because it or an ancestor is listed. Each node is visited once, however deep the tree.
+    enum class Shown : std::uint8_t { unknown, no, yes };
+    std::vector<Shown> shown(listed.size(), Shown::unknown);
+    std::vector<std::uint32_t> path;
+    const auto is_shown = [&](std::uint32_t node) {
+        for (; node != no_index && shown[node] == Shown::unknown; node = parents_[node]) path.push_back(node);
+        Shown found = node == no_index ? Shown::no : shown[node];
+        for (; !path.empty(); path.pop_back()) {
+            if (listed[path.back()]) found = Shown::yes;
+            shown[path.back()] = found;
+        }
+        return found == Shown::yes;
+    };
+    for (std::uint32_t i = 0; i < listed.size(); ++i)
+        if (listed[i] && !is_shown(parents_[i])) document_.roots.push_back(i);
 }
 
 Result<Document> DocumentReader::read(std::span<const std::byte> binary) {
