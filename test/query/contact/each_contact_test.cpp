@@ -13,6 +13,7 @@
 #include <abut/shape/placed.hpp>
 #include <abut/shape/polygon.hpp>
 #include <abut/shape/solid_bsp.hpp>
+#include <abut/shape/tile_map.hpp>
 
 #include <cmath>
 #include <vector>
@@ -336,6 +337,20 @@ TEST(EachContact, OfWhatHasNoSizeComesToAnEnd) {
         EXPECT_GT(contact(floor, dot).depth, 0);
         EXPECT_GT(contact(Sphere{place, 0}, floor).depth, 0);
     }
+}
+
+/// The rounds for pairs that touch have an end: of two maps of 100 x 100 tiles they took 96 s.
+TEST(EachContact, OfLevelsOnTopOfEachOtherEnds) {
+    constexpr std::uint32_t side = 150;
+    const TileMap map = *TileMap::build(std::vector<Tile>(side * side, Tile::full), side, 1);
+    const auto shifted = at(map, Pose2{{0.25f, 0.125f}});
+    EXPECT_EQ(contact(map, shifted).depth, 0.75f);
+    int count = 0;
+    each_contact(map, shifted, [&](const Contact<2>& found) {
+        EXPECT_GT(found.depth, 0);
+        ++count;
+    });
+    EXPECT_GT(count, 0);
 }
 
 }  // namespace

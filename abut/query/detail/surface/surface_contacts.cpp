@@ -131,7 +131,7 @@ public:
             find_planes_of_ghosts();
             find_forgotten(first_ghost, true);
             go_on = report_planes(first_ghost, visit_any);
-        } while (go_on && !is_complete_);
+        } while (go_on && !is_complete_ && tests_ < max_tests);
         if (!any && !has_neighbours) {
             first.flags = {};
             report_only_plane_of(first, visit);
@@ -188,6 +188,8 @@ private:
     };
 
     static constexpr std::size_t max_pairs = 64, max_old_planes = 32, max_manifolds = 8;
+    /// Each round tests all pairs again: of more than about 8,000 that touch, the last ones have no round.
+    static constexpr std::size_t max_tests = 1 << 20;
 
     double step() const { return filter_.scale(); }
 
@@ -261,6 +263,7 @@ private:
         is_complete_ = true;
         pairs_.each([&](const Part<D>& part_a, const Part<D>& part_b, const PairPlace& place) {
             Pair pair(place);
+            ++tests_;
             if (!touch(part_a, part_b, pair.distance)) return true;
             if (!is_first && !comes_before(before_, pair)) return true;
             is_complete_ = is_complete_ && stored_count_ < max_pairs;
@@ -446,6 +449,7 @@ private:
     ManifoldNames names_;
     PartPairs<D> pairs_;
     int round_ = 0;
+    std::size_t tests_ = 0;
     bool is_complete_ = false;      ///< no touching pair comes after the stored ones
     bool is_single_round_ = false;  ///< all touching pairs are stored
     bool has_forgotten_ = false;    ///< planes of earlier rounds
