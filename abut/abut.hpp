@@ -71,6 +71,7 @@
 #include <abut/walk/walk_mesh.hpp>
 #include <abut/world/file.hpp>
 #include <abut/world/history.hpp>
+#include <abut/world/large_world.hpp>
 #include <abut/world/options.hpp>
 #include <abut/world/recorded_world.hpp>
 #include <abut/world/replay.hpp>

@@ -63,6 +63,17 @@ struct Pose {
 using Pose2 = Pose<2>;
 using Pose3 = Pose<3>;
 
+/// A pose with its position in double, for a LargeWorld.
+template <int D>
+struct PoseD {
+    detail::DVec<D> position{0.0};
+    Rotation<D> rotation = detail::identity_rotation<D>();
+
+    friend bool operator==(const PoseD&, const PoseD&) = default;
+};
+using PoseD2 = PoseD<2>;
+using PoseD3 = PoseD<3>;
+
 /// The rotation by an angle in radians about an axis of length 1; the same bits on every machine.
 glm::quat turn_about(const Vec3& axis, float radians);
 

@@ -23,6 +23,19 @@ Ray(glm::vec<D, float>, glm::vec<D, float>, float) -> Ray<D>;
 using Ray2 = Ray<2>;
 using Ray3 = Ray<3>;
 
+/// A ray with its origin in double, for a LargeWorld.
+template <int D>
+struct RayD {
+    detail::DVec<D> origin{0.0};
+    Vec<D> direction{};                                     ///< as that of a Ray
+    float length = std::numeric_limits<float>::infinity();  ///< as that of a Ray
+
+    /// The ray from a to b, with a direction and a length in float. If a == b it has length 0.
+    static RayD between(const detail::DVec<D>& a, const detail::DVec<D>& b);
+};
+using RayD2 = RayD<2>;
+using RayD3 = RayD<3>;
+
 /// A moving box (swept AABB), in double. It has half extents `half`, and its center moves from `center` to `center +
 /// direction * length`; the direction may have any length.
 template <int D>
@@ -35,5 +48,7 @@ struct MovingBox {
 
 extern template struct Ray<2>;
 extern template struct Ray<3>;
+extern template struct RayD<2>;
+extern template struct RayD<3>;
 
 }  // namespace abut

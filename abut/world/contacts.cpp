@@ -76,18 +76,18 @@ private:
 }  // namespace
 
 template <int D>
-void World<D>::visit_contacts(const View<D>& shape, const Filter& filter, const QueryOptions<D>& options,
+void World<D>::visit_contacts(const View<D>& shape, const Query& query, const QueryOptions<D>& options,
                               FunctionRef<bool(Id, const Contact<D>&)> visit) const {
     if (!detail::is_valid_query(shape)) return;
     const auto each_item = [&](const Aabb<D>& box, FunctionRef<bool(Id, const View<D>&)> visit_item) {
-        visit_in_box(box, filter, visit_item);
+        visit_in_box(box, query, visit_item);
     };
     QueryContacts<D, decltype(each_item)>(shape, options, each_item).report(visit);
 }
 
-template void World<2>::visit_contacts(const View<2>&, const Filter&, const QueryOptions<2>&,
+template void World<2>::visit_contacts(const View<2>&, const Query&, const QueryOptions<2>&,
                                        FunctionRef<bool(Id, const Contact<2>&)>) const;
-template void World<3>::visit_contacts(const View<3>&, const Filter&, const QueryOptions<3>&,
+template void World<3>::visit_contacts(const View<3>&, const Query&, const QueryOptions<3>&,
                                        FunctionRef<bool(Id, const Contact<3>&)>) const;
 
 }  // namespace abut

@@ -25,8 +25,12 @@ void World<D>::widen_boxes() {
         const Pose<D>& from = previous_poses_[item.previous];
         const Aabb<D> first = item.stored.bounds_for_queries(from);
         if (detail::is_empty(first)) continue;
+        Motion<D> motion = Motion<D>::between(from, item.pose);
+        const bool is_large = positions_.are_used();
+        if (is_large) motion.move = detail::to_float(positions_.of(slot) - positions_.previous(item.previous));
         detail::SweptBox<D>& path = swept_boxes_[item.previous];
-        path = detail::swept_box(item.local_ball.ball(), first, Motion<D>::between(from, item.pose));
+        path = detail::swept_box(item.local_ball.ball(), first, motion);
+        if (is_large) path.box = positions_.about_origin(path.box, positions_.previous(item.previous));
         boxes_of(item).widen(item.place, merged(bounds(path), box(slot)));
         widened_ = true;
     }
@@ -42,20 +46,26 @@ detail::SweptBox<D> World<D>::swept_box_of(std::uint32_t slot) const {
 template <int D>
 bool World<D>::may_touch(std::uint32_t slot, std::uint32_t other) const {
     const Item &a = items_[slot], &b = items_[other];
-    if (overlaps(box(slot), box(other))) return true;
+    if (are_boxes_near(slot, other)) return true;
     if (!a.continuous && !b.continuous) return false;
     return (has_swept_box(slot) || has_swept_box(other)) &&
            detail::may_overlap(swept_box_of(slot), swept_box_of(other));
 }
 
+/// The hit of the motions of two items since the last update; its point is about the same position as a contact.
 template <int D>
 std::optional<Hit<D>> World<D>::sweep_pair(std::uint32_t slot, std::uint32_t other) const {
-    const auto from = [this](std::uint32_t item) -> const Pose<D>& {
-        return has_swept_box(item) ? previous_poses_[items_[item].previous] : items_[item].pose;
+    const detail::DVec<D> about = positions_.frame(slot);
+    const auto from = [&](std::uint32_t item) {
+        if (!has_swept_box(item)) return pose_about(item, about);
+        const std::uint32_t previous = items_[item].previous;
+        Pose<D> pose = previous_poses_[previous];
+        if (positions_.are_used()) pose.position = detail::to_float(positions_.previous(previous) - about);
+        return pose;
     };
-    const Item &a = items_[slot], &b = items_[other];
-    const Pose<D>&from_a = from(slot), &from_b = from(other), &to_a = a.pose, &to_b = b.pose;
-    const View<D> own_a = a.stored.view(), own_b = b.stored.view();
+    const Pose<D> from_a = from(slot), from_b = from(other), to_a = pose_about(slot, about),
+                  to_b = pose_about(other, about);
+    const View<D> own_a = items_[slot].stored.view(), own_b = items_[other].stored.view();
     if (from_a.rotation == to_a.rotation && from_b.rotation == to_b.rotation)
         return abut::sweep(moved(own_a, detail::affine(from_a)), to_a.position - from_a.position,
                            moved(own_b, detail::affine(from_b)), to_b.position - from_b.position);

@@ -2,6 +2,7 @@
 
 // The options of a world, of its items and of queries about them.
 
+#include <abut/broad_phase/choose_broad_phase.hpp>
 #include <abut/math/function_ref.hpp>
 #include <abut/math/pose.hpp>
 #include <abut/world/ball_early_out.hpp>

@@ -27,37 +27,45 @@ bool World<D>::passes(std::uint32_t slot, const Filter& filter) const {
 /// items, the broad phases find an item at any place of its motion.
 template <int D>
 template <class F>
-void World<D>::each_near(const Aabb<D>& box, const Filter& filter, F&& visit) const {
+void World<D>::each_near(const Aabb<D>& box, const Query& query, F&& visit) const {
     query_count_.add(detail::region_weight);
+    const Aabb<D> there = positions_.are_used() ? positions_.about_origin(box, query.origin) : box;
     bool go_on = true;
     const auto visit_passing = [&](std::uint32_t slot) -> bool {
-        if (passes(slot, filter) && (!widened_ || overlaps(this->box(slot), box))) go_on = visit(slot);
+        if (passes(slot, query.filter) && (!widened_ || overlaps(this->box(slot), there))) go_on = visit(slot);
         return go_on;
     };
-    moving_.each_overlapping(box, visit_passing);
-    if (go_on) fixed_.each_overlapping(box, visit_passing);
+    moving_.each_overlapping(there, visit_passing);
+    if (go_on) fixed_.each_overlapping(there, visit_passing);
 }
 
 /// Calls visit(slot) for the items whose AABBs the ray hits; it returns the new reach.
 template <int D>
 template <class F>
-void World<D>::each_near_ray(const Ray<D>& ray, const Filter& filter, F&& visit) const {
+void World<D>::each_near_ray(const Ray<D>& ray, const Query& query, F&& visit) const {
     if (!detail::is_valid_query(ray)) return;
     query_count_.add(detail::ray_weight);
     Ray<D> rest = ray;
     const auto visit_passing = [&](std::uint32_t slot) -> float {
-        if (passes(slot, filter)) rest.length = std::min(rest.length, static_cast<float>(visit(slot)));
+        if (passes(slot, query.filter)) rest.length = std::min(rest.length, static_cast<float>(visit(slot)));
         return rest.length;
     };
-    moving_.raycast(rest, visit_passing);
-    fixed_.raycast(rest, visit_passing);
+    for (const detail::ItemBoxes<D>* items : {&moving_, &fixed_}) {
+        if (!positions_.are_used()) {
+            items->raycast(rest, visit_passing);
+            continue;
+        }
+        const MovingBox<D> point{DVec<D>(rest.origin), DVec<D>(0.0), DVec<D>(rest.direction),
+                                 static_cast<double>(rest.length)};
+        items->sweep(positions_.about_origin(point, query.origin), visit_passing);
+    }
 }
 
 template <int D>
-std::optional<WorldHit<D>> World<D>::first_hit(const Ray<D>& ray, const Filter& filter) const {
+std::optional<WorldHit<D>> World<D>::first_hit(const Ray<D>& ray, const Query& query) const {
     std::optional<WorldHit<D>> first;
-    each_near_ray(ray, filter, [&](std::uint32_t slot) {
-        const std::optional<Hit<D>> hit = abut::raycast(ray, placed(items_[slot]));
+    each_near_ray(ray, query, [&](std::uint32_t slot) {
+        const std::optional<Hit<D>> hit = abut::raycast(ray, placed(slot, query.origin));
         const Id id = id_of(slot);
         if (hit &&
             (!first || hit->distance < first->hit.distance || (hit->distance == first->hit.distance && id < first->id)))
@@ -68,20 +76,20 @@ std::optional<WorldHit<D>> World<D>::first_hit(const Ray<D>& ray, const Filter& 
 }
 
 template <int D>
-bool World<D>::any_hit(const Ray<D>& ray, const Filter& filter) const {
+bool World<D>::any_hit(const Ray<D>& ray, const Query& query) const {
     bool any = false;
-    each_near_ray(ray, filter, [&](std::uint32_t slot) {
-        any = any || abut::raycast_any(ray, placed(items_[slot]));
+    each_near_ray(ray, query, [&](std::uint32_t slot) {
+        any = any || abut::raycast_any(ray, placed(slot, query.origin));
         return any ? -1.0f : ray.length;
     });
     return any;
 }
 
 template <int D>
-std::vector<WorldHit<D>> World<D>::all_hits(const Ray<D>& ray, const Filter& filter) const {
+std::vector<WorldHit<D>> World<D>::all_hits(const Ray<D>& ray, const Query& query) const {
     std::vector<WorldHit<D>> all;
-    each_near_ray(ray, filter, [&](std::uint32_t slot) {
-        if (const std::optional<Hit<D>> hit = abut::raycast(ray, placed(items_[slot])))
+    each_near_ray(ray, query, [&](std::uint32_t slot) {
+        if (const std::optional<Hit<D>> hit = abut::raycast(ray, placed(slot, query.origin)))
             all.push_back({id_of(slot), *hit});
         return ray.length;
     });
@@ -92,25 +100,24 @@ std::vector<WorldHit<D>> World<D>::all_hits(const Ray<D>& ray, const Filter& fil
 }
 
 template <int D>
-void World<D>::visit_overlapping(const View<D>& shape, const Filter& filter, FunctionRef<bool(Id)> visit) const {
+void World<D>::visit_overlapping(const View<D>& shape, const Query& query, FunctionRef<bool(Id)> visit) const {
     if (!detail::is_valid_query(shape)) return;
-    each_near(bounds(shape), filter, [&](std::uint32_t slot) {
+    each_near(bounds(shape), query, [&](std::uint32_t slot) {
         const Item& item = items_[slot];
         if (std::holds_alternative<HalfSpaceView<D>>(shape) && item.type == ShapeType::half_space) return true;
-        return !overlaps(shape, placed(item)) || visit(id_of(slot));
+        return !overlaps(shape, placed(slot, query.origin)) || visit(id_of(slot));
     });
 }
 
 template <int D>
-void World<D>::visit_in_box(const Aabb<D>& box, const Filter& filter,
-                            FunctionRef<bool(Id, const View<D>&)> visit) const {
-    each_near(box, filter, [&](std::uint32_t slot) { return visit(id_of(slot), placed(items_[slot])); });
+void World<D>::visit_in_box(const Aabb<D>& box, const Query& query, FunctionRef<bool(Id, const View<D>&)> visit) const {
+    each_near(box, query, [&](std::uint32_t slot) { return visit(id_of(slot), placed(slot, query.origin)); });
 }
 
 template <int D>
-std::vector<Id> World<D>::all_overlapping(const View<D>& shape, const Filter& filter) const {
+std::vector<Id> World<D>::all_overlapping(const View<D>& shape, const Query& query) const {
     std::vector<Id> result;
-    visit_overlapping(shape, filter, [&](Id id) {
+    visit_overlapping(shape, query, [&](Id id) {
         result.push_back(id);
         return true;
     });
@@ -119,11 +126,11 @@ std::vector<Id> World<D>::all_overlapping(const View<D>& shape, const Filter& fi
 }
 
 template <int D>
-std::vector<Id> World<D>::all_containing(const Vec<D>& point, const Filter& filter) const {
+std::vector<Id> World<D>::all_containing(const Vec<D>& point, const Query& query) const {
     std::vector<Id> result;
     if (!detail::is_valid_query(point_view(point))) return result;
-    each_near(Aabb<D>{point, point}, filter, [&](std::uint32_t slot) {
-        if (abut::contains(placed(items_[slot]), point)) result.push_back(id_of(slot));
+    each_near(Aabb<D>{point, point}, query, [&](std::uint32_t slot) {
+        if (abut::contains(placed(slot, query.origin), point)) result.push_back(id_of(slot));
         return true;
     });
     std::sort(result.begin(), result.end());

@@ -121,6 +121,17 @@ Problem damaged() {
 
 }  // namespace
 
+/// The numbers of items and of motions in a snapshot, which may be damaged.
+template <int D>
+std::pair<std::uint32_t, std::uint32_t> World<D>::saved_counts(std::span<const std::byte> bytes) {
+    BlobReader reader(bytes);
+    std::array<std::uint32_t, 4> start{};
+    for (std::uint32_t& word : start) get(reader, word);
+    SnapshotSizes sizes;
+    sizes.each([&](std::uint32_t& number) { get(reader, number); });
+    return {sizes.slots - sizes.free, sizes.motions};
+}
+
 /// Copies of one shape are often added one after another.
 template <int D>
 void World<D>::find_shape_hashes() {
@@ -430,6 +441,7 @@ std::optional<Problem> World<D>::restore(std::span<const std::byte> bytes) {
         pending_.push_back(slot);
     }
     previous_poses_.clear();
+    positions_.clear_previous();
     changed_boxes_.clear();
     free_.clear();
     for (const auto& [slot, generation] : snapshot.free) {

@@ -25,24 +25,25 @@ MoverAtHit<D> mover_of(const View<D>& shape, const RigidPath<D>& path, const Hit
 
 }  // namespace
 
-/// The first hit on a path; `sweep_at(item)` returns the hit on one item.
+/// The first hit on a path; `sweep_at(slot)` returns the hit on one item.
 template <int D>
 template <class F>
 std::optional<WorldHit<D>> World<D>::first_on_path(const View<D>& shape, const detail::SweptBox<D>& path,
-                                                   const Filter& filter, F&& sweep_at) const {
+                                                   const Query& query, F&& sweep_at) const {
     std::optional<WorldHit<D>> first;
     if (is_empty(path.box)) return first;
     query_count_.add(detail::ray_weight);
-    const MovingBox<D> moving = moving_box(path);
+    MovingBox<D> moving = moving_box(path);
+    if (positions_.are_used()) moving = positions_.about_origin(moving, query.origin);
     // This test rejects the items that a broad phase visits by rounding, so that no kind of broad phase tests more.
     const RayReach<D> whole = RayReach<D>::of_box(moving);
     float reach = 1;
     const auto visit = [&](std::uint32_t slot) -> float {
         const Item& item = items_[slot];
         double enters = 0;
-        if (!passes(slot, filter) || (!whole.is_exhausted() && !whole.measure(box(slot), enters))) return reach;
+        if (!passes(slot, query.filter) || (!whole.is_exhausted() && !whole.measure(box(slot), enters))) return reach;
         if (std::holds_alternative<HalfSpaceView<D>>(shape) && item.type == ShapeType::half_space) return reach;
-        const std::optional<Hit<D>> hit = sweep_at(item);
+        const std::optional<Hit<D>> hit = sweep_at(slot);
         if (!hit || hit->fraction > reach) return reach;
         const Id id = id_of(slot);
         if (!first || hit->fraction < reach || id < first->id) first = WorldHit<D>{id, *hit};
@@ -65,12 +66,12 @@ std::optional<WorldHit<D>> World<D>::first_on_path(const View<D>& shape, const d
 
 /// Whether another item may be as near to a hit as the filter of its normal looks: twice as far as the mover's centre.
 template <int D>
-bool World<D>::has_other_item_near(const MoverAtHit<D>& mover, const Filter& filter, const WorldHit<D>& hit) const {
+bool World<D>::has_other_item_near(const MoverAtHit<D>& mover, const Query& query, const WorldHit<D>& hit) const {
     if (!std::isfinite(mover.size)) return false;
     const DVec<D> place(hit.hit.point);
     const double reach = 2.01 * length(mover.center - place) + 4 * surface_probe_scale * mover.size;
     bool result = false;
-    visit_in_box(box_around(place, reach), filter, [&](Id id, const View<D>&) {
+    visit_in_box(box_around(place, reach), query, [&](Id id, const View<D>&) {
         result = id != hit.id;
         return !result;
     });
@@ -79,9 +80,9 @@ bool World<D>::has_other_item_near(const MoverAtHit<D>& mover, const Filter& fil
 
 /// Replaces the hit's normal by a surface normal of the union of all items, without internal edges (docs/ghosts.md).
 template <int D>
-void World<D>::filter_normal(const MoverAtHit<D>& mover, const Filter& filter, WorldHit<D>& hit) const {
+void World<D>::filter_normal(const MoverAtHit<D>& mover, const Query& query, WorldHit<D>& hit) const {
     const auto beside_hit = [&](const DVec<D>& from, double within, ClosestPointVisitor<D> visit) {
-        visit_in_box(box_around(from, within), filter, [&](Id id, const View<D>& item) {
+        visit_in_box(box_around(from, within), query, [&](Id id, const View<D>& item) {
             if (id != hit.id)
                 each_closest_point_on<D>(item, from, within,
                                          [&](const ClosestPoint<D>& closest) { return within = visit(closest); });
@@ -89,50 +90,52 @@ void World<D>::filter_normal(const MoverAtHit<D>& mover, const Filter& filter, W
         });
     };
     const EachClosestPoint<D> neighbours(beside_hit);
-    filter_hit_normal<D>(mover, shape(hit.id), &neighbours, hit.hit);
+    filter_hit_normal<D>(mover, placed(hit.id.index - 1, query.origin), &neighbours, hit.hit);
 }
 
 template <int D>
 std::optional<WorldHit<D>> World<D>::sweep_linear(const View<D>& shape, const Vec<D>& motion,
-                                                  const Filter& filter) const {
+                                                  const Query& query) const {
     if (!detail::is_valid_query(shape, motion)) return std::nullopt;
     std::optional<WorldHit<D>> first =
-        first_on_path(shape, detail::swept_box(bounds(shape), motion), filter,
-                      [&](const Item& item) { return sweep_unfiltered(shape, motion, placed(item)); });
+        first_on_path(shape, detail::swept_box(bounds(shape), motion), query,
+                      [&](std::uint32_t slot) { return sweep_unfiltered(shape, motion, placed(slot, query.origin)); });
     if (!first) return first;
     const MoverAtHit<D> mover =
         linear_mover_at_hit<D>(shape, DVec<D>(motion) * static_cast<double>(first->hit.fraction));
     // A composite shape is a surface of its own first, which mostly has no other item near it.
-    const Item& item = *find(first->id);
-    if (std::holds_alternative<Composite<D>>(item.stored.view())) {
-        filter_hit_normal<D>(mover, placed(item), nullptr, first->hit);
-        if (!has_other_item_near(mover, filter, *first)) return first;
+    const std::uint32_t slot = first->id.index - 1;
+    if (std::holds_alternative<Composite<D>>(items_[slot].stored.view())) {
+        filter_hit_normal<D>(mover, placed(slot, query.origin), nullptr, first->hit);
+        if (!has_other_item_near(mover, query, *first)) return first;
     }
-    filter_normal(mover, filter, *first);
+    filter_normal(mover, query, *first);
     return first;
 }
 
 template <int D>
 std::optional<WorldHit<D>> World<D>::sweep_rotating(const View<D>& shape, const Motion<D>& motion,
-                                                    const Filter& filter) const {
+                                                    const Query& query) const {
     if (!detail::is_valid_query(shape, motion)) return std::nullopt;
-    std::optional<WorldHit<D>> first = first_on_path(
-        shape, swept_box_of_shape(shape, motion), filter,
-        [&](const Item& item) { return abut::sweep(shape, motion, item.stored.view(), Motion<D>{.from = item.pose}); });
-    if (first) filter_normal(mover_of(shape, rigid_path(motion), first->hit), filter, *first);
+    std::optional<WorldHit<D>> first =
+        first_on_path(shape, swept_box_of_shape(shape, motion), query, [&](std::uint32_t slot) {
+            const Motion<D> at_rest{.from = pose_about(slot, query.origin)};
+            return abut::sweep(shape, motion, items_[slot].stored.view(), at_rest);
+        });
+    if (first) filter_normal(mover_of(shape, rigid_path(motion), first->hit), query, *first);
     return first;
 }
 
 template <int D>
 std::optional<WorldHit<D>> World<D>::sweep_between(const View<D>& shape, const Pose<D>& from, const Pose<D>& to,
-                                                   const Filter& filter) const {
+                                                   const Query& query) const {
     if (!detail::is_valid_query(shape, from, to)) return std::nullopt;
     std::optional<WorldHit<D>> first =
-        first_on_path(shape, swept_box_of_shape(shape, Motion<D>::between(from, to)), filter, [&](const Item& item) {
-            const Pose<D>& there = item.pose;
-            return abut::sweep(shape, from, to, item.stored.view(), there, there);
+        first_on_path(shape, swept_box_of_shape(shape, Motion<D>::between(from, to)), query, [&](std::uint32_t slot) {
+            const Pose<D> there = pose_about(slot, query.origin);
+            return abut::sweep(shape, from, to, items_[slot].stored.view(), there, there);
         });
-    if (first) filter_normal(mover_of(shape, rigid_path(from, to), first->hit), filter, *first);
+    if (first) filter_normal(mover_of(shape, rigid_path(from, to), first->hit), query, *first);
     return first;
 }
 

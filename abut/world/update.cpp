@@ -23,6 +23,7 @@ void World<D>::refresh_boxes(Executor* executor) {
 
 template <int D>
 void World<D>::refresh_now() {
+    if (positions_.are_far()) set_boxes();
     if (moving_.changed()) moving_.refresh(queries_per_item_);
     if (fixed_.changed()) fixed_.refresh(queries_per_fixed_item);
 }
@@ -40,7 +41,7 @@ template <int D>
 bool World<D>::has_changed_near(std::uint32_t slot, std::uint32_t other) const {
     if (!items_[slot].pending || !items_[slot].pending_in_box) return items_[slot].pending;
     constexpr float reach = 1.0f / 64;
-    const Aabb<D>& near = box(other);
+    const Aabb<D> near = box_about(other, positions_.frame(slot));
     const auto of_slot = std::find_if(changed_boxes_.begin(), changed_boxes_.end(),
                                       [slot](const auto& changed) { return changed.first == slot; });
     return overlaps(of_slot->second, grown(near, reach * length(near.max - near.min)));
@@ -59,6 +60,8 @@ void World<D>::find_near(Executor* executor) {
     std::swap(near_, last_near_);
     near_.clear();
     if (filters_edges_) memory_->neighbours.begin_update(items_.size());
+    // Whether the broad phases hold boxes that are larger than those of the items.
+    const bool is_large = positions_.are_used(), is_wider = widened_ || is_large;
     std::mutex mutex;
     const auto add = [&](const detail::ItemBoxes<D>& first, const detail::ItemBoxes<D>& second,
                          std::span<const detail::ItemPair> pairs) {
@@ -68,7 +71,9 @@ void World<D>::find_near(Executor* executor) {
             std::size_t count = 0;
             for (const auto& [i, j] : pairs.first(std::min(batch, pairs.size()))) {
                 const std::uint32_t slot = first.slot(i), other = second.slot(j);
-                if ((widened_ && !may_touch(slot, other)) || !may_pair(slot, other)) continue;
+                const bool are_near =
+                    !is_wider || (is_large && detail::DoublePositions<D>::surely_overlap(first.box(i), second.box(j)));
+                if ((!are_near && !may_touch(slot, other)) || !may_pair(slot, other)) continue;
                 found[count++] = {std::min(slot, other), std::max(slot, other)};
             }
             pairs = pairs.subspan(std::min(batch, pairs.size()));
@@ -91,6 +96,13 @@ void World<D>::find_near(Executor* executor) {
     if (filters_pairs_)
         for (std::vector<detail::SlotPair>* pairs : {&near_, &last_near_})
             if (!std::is_sorted(pairs->begin(), pairs->end())) std::sort(pairs->begin(), pairs->end());
+}
+
+/// Whether both items of a near pair are part of the surface that a third one touches. Sensors are not, and near by
+/// their swept boxes alone is not enough.
+template <int D>
+bool World<D>::are_neighbours(std::uint32_t slot, std::uint32_t other) const {
+    return !items_[slot].sensor && !items_[other].sensor && (!widened_ || are_boxes_near(slot, other));
 }
 
 /// Lists the neighbours of the items whose contacts are filtered.
@@ -200,6 +212,7 @@ void World<D>::compare_with_last() {
 
 template <int D>
 Events World<D>::find_events(Executor* executor) {
+    if (positions_.are_far()) set_boxes();
     widen_boxes();
     refresh_boxes(executor);
 
@@ -232,6 +245,7 @@ Events World<D>::find_events(Executor* executor) {
     pending_.clear();
     changed_boxes_.clear();
     previous_poses_.clear();
+    positions_.clear_previous();
     swept_boxes_.clear();
     filters_pairs_ = pair_filter_ != nullptr;
     return {began_, stayed_, ended_, fractions_};

@@ -70,6 +70,22 @@ void World<D>::add_to_boxes(std::uint32_t slot) {
     query_count_.set_limit(query_limit());
 }
 
+/// The running mean, or the queries since the last update if they are more already.
+template <int D>
+double World<D>::recent_queries_per_item() const {
+    return std::max(queries_per_item_, queries_per_item(query_count_.sum()));
+}
+template <int D>
+double World<D>::queries_per_item(std::uint32_t sum) const {
+    return static_cast<double>(sum) / (ray_weight * std::max<double>(static_cast<double>(moving_.size()), 1));
+}
+
+/// It is high enough to count the queries of several updates in one.
+template <int D>
+std::uint32_t World<D>::query_limit() const {
+    return static_cast<std::uint32_t>(ray_weight * (moving_.size() + 64));
+}
+
 template <int D>
 void World<D>::reset_item(std::uint32_t slot) {
     set_shape_data(items_[slot]);
@@ -139,13 +155,20 @@ template <int D>
 void World<D>::move_to(Id id, const Pose<D>& pose) {
     Item* item = expected(id);
     if (item == nullptr || item->pose == pose) return;
-    if (item->settled && item->previous == none) {
-        item->previous = static_cast<std::uint32_t>(previous_poses_.size());
-        detail::reserve_one_more(previous_poses_);
-        previous_poses_.push_back(item->pose);
-    }
+    keep_previous_pose(id.index - 1);
     item->pose = pose;
     update_box(id.index - 1);
+}
+
+/// Keeps the pose of the last update, if the item was there and hasn't moved since.
+template <int D>
+void World<D>::keep_previous_pose(std::uint32_t slot) {
+    Item& item = items_[slot];
+    if (!item.settled || item.previous != none) return;
+    item.previous = static_cast<std::uint32_t>(previous_poses_.size());
+    detail::reserve_one_more(previous_poses_);
+    previous_poses_.push_back(item.pose);
+    if (positions_.are_used()) positions_.keep_previous(slot);
 }
 
 template <int D>
@@ -182,21 +205,67 @@ void World<D>::free_slot(std::uint32_t slot) {
 template <int D>
 void World<D>::update_box(std::uint32_t slot) {
     Item& item = items_[slot];
-    const Aabb<D> box = item.bounds();
-    ABUT_ASSERT(!is_empty(box) || is_finite(placed(item)));
+    const Aabb<D> box = bounds_in_broad_phase(slot);
+    ABUT_ASSERT(!is_empty(box) || is_finite(placed(slot)));
     boxes_of(item).set(item.place, box);
     mark_pending(slot);
 }
 
 template <int D>
-BoundingBall<D> World<D>::ball(const Item& item) const {
-    const detail::SmallBall<D>& local = item.local_ball;
+Aabb<D> World<D>::bounds_in_broad_phase(std::uint32_t slot) {
+    const Aabb<D> bounds = items_[slot].bounds();
+    return positions_.are_used() ? positions_.item_box(slot, bounds) : bounds;
+}
+
+/// Sets the boxes of all items, about an origin that is near to most of them. No answer depends on it.
+template <int D>
+void World<D>::set_boxes() {
+    if (positions_.are_far()) positions_.move_origin([this](std::uint32_t slot) { return items_[slot].in_use; });
+    for (std::uint32_t slot = 0; slot < items_.size(); ++slot)
+        if (items_[slot].in_use) boxes_of(items_[slot]).set(items_[slot].place, bounds_in_broad_phase(slot));
+}
+
+template <int D>
+View<D> World<D>::placed(std::uint32_t slot, const DVec<D>& about) const {
+    View<D> result = items_[slot].stored.placed(items_[slot].pose);
+    if (positions_.are_used()) set_offset<D>(result, offset_of(result), positions_.of(slot) - about);
+    return result;
+}
+
+template <int D>
+Pose<D> World<D>::pose_about(std::uint32_t slot, const DVec<D>& position) const {
+    Pose<D> pose = items_[slot].pose;
+    if (positions_.are_used()) pose.position = to_float(positions_.of(slot) - position);
+    return pose;
+}
+
+/// It depends on the difference of the two positions alone.
+template <int D>
+Aabb<D> World<D>::box_about(std::uint32_t slot, const DVec<D>& position) const {
+    if (!positions_.are_used()) return box(slot);
+    return DoublePositions<D>::moved_outwards(items_[slot].bounds(), positions_.of(slot) - position);
+}
+
+/// Of two slots in either order the answer is one.
+template <int D>
+bool World<D>::are_boxes_near(std::uint32_t slot, std::uint32_t other) const {
+    if (!overlaps(box(slot), box(other))) return false;
+    if (!positions_.are_used() || DoublePositions<D>::surely_overlap(box(slot), box(other))) return true;
+    const auto [first, second] = std::minmax(slot, other);
+    return overlaps(items_[first].bounds(), box_about(second, positions_.of(first)));
+}
+
+template <int D>
+BoundingBall<D> World<D>::ball(std::uint32_t slot, const DVec<D>& about) const {
+    const detail::SmallBall<D>& local = items_[slot].local_ball;
+    const Pose<D>& pose = items_[slot].pose;
     Affine<D> place;
     // Most shapes lie about the origin of their own frame, and no rotation moves their ball.
     if (local.center == Vec<D>(0.0f))
-        place.offset = DVec<D>(item.pose.position);
+        place.offset = DVec<D>(pose.position);
     else
-        place = affine(item.pose);
+        place = affine(pose);
+    if (positions_.are_used()) place.offset += positions_.of(slot) - about;
     return detail::moved(local.ball(), place);
 }
 
@@ -229,7 +298,7 @@ Pose<D> World<D>::pose(Id id) const {
 template <int D>
 View<D> World<D>::shape(Id id) const {
     const Item* item = expected(id);
-    return item != nullptr ? placed(*item) : View<D>();
+    return item != nullptr ? placed(id.index - 1) : View<D>();
 }
 
 template <int D>

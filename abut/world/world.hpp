@@ -3,7 +3,6 @@
 // A collision world for games: it stores shapes by id, reports the pairs that touch with each update, and answers
 // queries about all items. It moves nothing by itself.
 
-#include <abut/broad_phase/choose_broad_phase.hpp>
 #include <abut/math/executor.hpp>
 #include <abut/math/motion.hpp>
 #include <abut/math/result.hpp>
@@ -11,6 +10,7 @@
 #include <abut/shape/any_shape.hpp>
 #include <abut/shape/detail/changed_box.hpp>
 #include <abut/world/batch.hpp>
+#include <abut/world/detail/double_positions.hpp>
 #include <abut/world/detail/item_boxes.hpp>
 #include <abut/world/detail/pair_index.hpp>
 #include <abut/world/detail/pair_results.hpp>
@@ -25,7 +25,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <span>
 #include <utility>
@@ -48,6 +47,8 @@ namespace abut {
 
 template <int D>
 class History;
+template <int D>
+class LargeWorld;
 
 /// A collision world. All lists are sorted by id, and no answer depends on the order in which items were added except
 /// through the ids.
@@ -344,26 +345,28 @@ public:
 private:
     friend Many;
     friend History<D>;
+    friend LargeWorld<D>;
 
     static constexpr std::uint32_t none = 0xFFFFFFFF;
     /// Fixed items change seldom, and each moving item queries them once in an update.
     static constexpr double queries_per_fixed_item = 1;
     using Item = detail::WorldItem<D>;
+    using Query = detail::QueryAt<D>;
 
     static View<D> point_view(const Vec<D>& point) {
         detail::clear_upper_halves();
         return View<D>(detail::round_points<D>({point}, 0));
     }
 
-    // The bodies of the public functions, compiled with the library's flags.
+    // What follows is compiled with the library's flags.
     Id add_shape(const AnyShape<D>& shape, const ItemOptions<D>& options);
     void move_to(Id id, const Pose<D>& pose);
     Events find_events(Executor* executor);
     void refresh_now();
-    std::optional<WorldHit<D>> first_hit(const Ray<D>& ray, const Filter& filter) const;
-    bool any_hit(const Ray<D>& ray, const Filter& filter) const;
-    std::vector<WorldHit<D>> all_hits(const Ray<D>& ray, const Filter& filter) const;
-    std::vector<Id> all_containing(const Vec<D>& point, const Filter& filter) const;
+    std::optional<WorldHit<D>> first_hit(const Ray<D>& ray, const Query& query) const;
+    bool any_hit(const Ray<D>& ray, const Query& query) const;
+    std::vector<WorldHit<D>> all_hits(const Ray<D>& ray, const Query& query) const;
+    std::vector<Id> all_containing(const Vec<D>& point, const Query& query) const;
 
     Id add_item(const Item& with_shape, const ItemOptions<D>& options);
     void add_to_boxes(std::uint32_t slot);
@@ -372,6 +375,7 @@ private:
     void set_shape_data(Item& item);
     void free_slot(std::uint32_t slot);
     struct Snapshot;
+    static std::pair<std::uint32_t, std::uint32_t> saved_counts(std::span<const std::byte> bytes);
     void find_shape_hashes();
     std::optional<Problem> find_shapes(const Snapshot& snapshot,
                                        std::vector<std::pair<std::uint32_t, AnyShape<D>>>& changed);
@@ -391,24 +395,24 @@ private:
         const Item& item = items_[slot];
         return (item.fixed ? fixed_ : moving_).box(item.place);
     }
-    View<D> placed(const Item& item) const { return item.stored.placed(item.pose); }
-    detail::BoundingBall<D> ball(const Item& item) const;
+    /// The item's shape, pose, box and bounding ball about a position, which is 0 unless positions are doubles.
+    View<D> placed(std::uint32_t slot, const detail::DVec<D>& about = detail::DVec<D>(0.0)) const;
+    Pose<D> pose_about(std::uint32_t slot, const detail::DVec<D>& position) const;
+    Aabb<D> box_about(std::uint32_t slot, const detail::DVec<D>& position) const;
+    bool are_boxes_near(std::uint32_t slot, std::uint32_t other) const;
+    detail::BoundingBall<D> ball(std::uint32_t slot, const detail::DVec<D>& about) const;
     void visit_items(FunctionRef<bool(Id)> visit) const;
     void visit_touching(Id id, FunctionRef<bool(Id)> visit) const;
     void visit_contacts_of(Id id, FunctionRef<bool(const WorldContact<D>&)> visit) const;
     void update_box(std::uint32_t slot);
+    Aabb<D> bounds_in_broad_phase(std::uint32_t slot);
+    void keep_previous_pose(std::uint32_t slot);
+    void set_boxes();
     void mark_pending(std::uint32_t slot);
     bool passes(std::uint32_t slot, const Filter& filter) const;
-
-    /// The running mean, or the queries since the last update if they are more already.
-    double recent_queries_per_item() const { return std::max(queries_per_item_, queries_per_item(query_count_.sum())); }
-    double queries_per_item(std::uint32_t sum) const {
-        return static_cast<double>(sum) /
-               (detail::ray_weight * std::max<double>(static_cast<double>(moving_.size()), 1));
-    }
-    /// It is high enough to count the queries of several updates in one.
-    std::uint32_t query_limit() const { return static_cast<std::uint32_t>(detail::ray_weight * (moving_.size() + 64)); }
-
+    double recent_queries_per_item() const;
+    double queries_per_item(std::uint32_t sum) const;
+    std::uint32_t query_limit() const;
     void refresh_boxes(Executor* executor);
     bool has_swept_box(std::uint32_t slot) const;
     void widen_boxes();
@@ -424,11 +428,7 @@ private:
     void join_results(std::span<const detail::PairResults<D>> parts);
     std::optional<Hit<D>> sweep_pair(std::uint32_t slot, std::uint32_t other) const;
     bool filters_edges(std::uint32_t slot) const;
-    /// Whether both items of a near pair are part of the surface that a third one touches. Sensors are not, and near by
-    /// their swept boxes alone is not enough.
-    bool are_neighbours(std::uint32_t slot, std::uint32_t other) const {
-        return !items_[slot].sensor && !items_[other].sensor && (!widened_ || overlaps(box(slot), box(other)));
-    }
+    bool are_neighbours(std::uint32_t slot, std::uint32_t other) const;
     void find_changed_neighbours();
     bool neighbours_changed(const IdPair& pair);
     bool is_covered(std::size_t ghost, const Id& item) const;
@@ -438,33 +438,32 @@ private:
     void set_fractions();
 
     template <class F>
-    void each_near(const Aabb<D>& box, const Filter& filter, F&& visit) const;
+    void each_near(const Aabb<D>& box, const Query& query, F&& visit) const;
     template <class F>
-    void each_near_ray(const Ray<D>& ray, const Filter& filter, F&& visit) const;
+    void each_near_ray(const Ray<D>& ray, const Query& query, F&& visit) const;
     template <class F>
-    std::optional<WorldHit<D>> first_on_path(const View<D>& shape, const detail::SweptBox<D>& path,
-                                             const Filter& filter, F&& sweep_at) const;
-    bool has_other_item_near(const detail::MoverAtHit<D>& mover, const Filter& filter, const WorldHit<D>& hit) const;
-    void filter_normal(const detail::MoverAtHit<D>& mover, const Filter& filter, WorldHit<D>& hit) const;
-    std::optional<WorldHit<D>> sweep_linear(const View<D>& shape, const Vec<D>& motion, const Filter& filter) const;
-    std::optional<WorldHit<D>> sweep_rotating(const View<D>& shape, const Motion<D>& motion,
-                                              const Filter& filter) const;
+    std::optional<WorldHit<D>> first_on_path(const View<D>& shape, const detail::SweptBox<D>& path, const Query& query,
+                                             F&& sweep_at) const;
+    bool has_other_item_near(const detail::MoverAtHit<D>& mover, const Query& query, const WorldHit<D>& hit) const;
+    void filter_normal(const detail::MoverAtHit<D>& mover, const Query& query, WorldHit<D>& hit) const;
+    std::optional<WorldHit<D>> sweep_linear(const View<D>& shape, const Vec<D>& motion, const Query& query) const;
+    std::optional<WorldHit<D>> sweep_rotating(const View<D>& shape, const Motion<D>& motion, const Query& query) const;
     std::optional<WorldHit<D>> sweep_between(const View<D>& shape, const Pose<D>& from, const Pose<D>& to,
-                                             const Filter& filter) const;
-    std::optional<WorldClosest<D>> closest_to(const View<D>& shape, const Filter& filter) const;
-    std::size_t nearest_to(const View<D>& shape, std::span<WorldClosest<D>> out, const Filter& filter) const;
-    std::vector<WorldClosest<D>> list_of_nearest(const View<D>& shape, std::size_t k, const Filter& filter) const;
-    std::vector<Id> all_overlapping(const View<D>& shape, const Filter& filter) const;
-    void visit_overlapping(const View<D>& shape, const Filter& filter, FunctionRef<bool(Id)> visit) const;
-    void visit_contacts(const View<D>& shape, const Filter& filter, const QueryOptions<D>& options,
+                                             const Query& query) const;
+    std::optional<WorldClosest<D>> closest_to(const View<D>& shape, const Query& query) const;
+    std::size_t nearest_to(const View<D>& shape, std::span<WorldClosest<D>> out, const Query& query) const;
+    std::vector<WorldClosest<D>> list_of_nearest(const View<D>& shape, std::size_t k, const Query& query) const;
+    std::vector<Id> all_overlapping(const View<D>& shape, const Query& query) const;
+    void visit_overlapping(const View<D>& shape, const Query& query, FunctionRef<bool(Id)> visit) const;
+    void visit_contacts(const View<D>& shape, const Query& query, const QueryOptions<D>& options,
                         FunctionRef<bool(Id, const Contact<D>&)> visit) const;
-    void visit_in_box(const Aabb<D>& box, const Filter& filter, FunctionRef<bool(Id, const View<D>&)> visit) const;
+    void visit_in_box(const Aabb<D>& box, const Query& query, FunctionRef<bool(Id, const View<D>&)> visit) const;
 
     std::vector<Item> items_;
+    detail::DoublePositions<D> positions_;          // not used unless this is a LargeWorld's
     std::vector<Pose<D>> previous_poses_;           // poses of moved items at the last update
     std::vector<detail::SweptBox<D>> swept_boxes_;  // by index in previous_poses_; in an update with continuous items
-    std::vector<std::uint32_t> free_;
-    std::vector<std::uint32_t> pending_;
+    std::vector<std::uint32_t> free_, pending_;
     std::vector<std::pair<std::uint32_t, Aabb<D>>> changed_boxes_;  // of slots that changed in a box alone
     bool widened_ = false;                                          // the broad phases hold swept AABBs of moved items
     std::size_t count_ = 0, continuous_ = 0;

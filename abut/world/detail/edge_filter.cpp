@@ -22,6 +22,13 @@ constexpr float probe_reach = 4;
 
 }  // namespace
 
+/// Moves a view from the item's position, where it was made, to where the item is in the frame.
+template <int D>
+void World<D>::PairTests::move_to_frame(std::uint32_t slot, View<D>& view) {
+    const DVec<D>& own = memory_.own_offsets.of(slot, [&] { return offset_of(view); });
+    set_offset(view, own, world_.positions_.of(slot) - frame_);
+}
+
 /// Visits the closest points on the neighbours of the item in `slot`, except on the item in `other`.
 template <int D>
 void World<D>::PairTests::each_closest_point_beside(std::uint32_t slot, std::uint32_t other, const DVec<D>& point,
@@ -35,7 +42,8 @@ void World<D>::PairTests::each_closest_point_beside(std::uint32_t slot, std::uin
     const auto last_cover = neighbours_.last_cover(slot);
     const std::uint32_t last = last_cover.load(std::memory_order_relaxed), first = last == other ? none : last;
     if (first != none && !visit_item(first)) return;
-    const Aabb<D> near = box_around(point, within);
+    Aabb<D> near = box_around(point, within);
+    if (is_large_) near = world_.positions_.about_origin(near, frame_);
     if (const std::span neighbours = neighbours_.of(slot); neighbours.size() <= max_listed_neighbours) {
         const typename Neighbour<D>::Query query(near);
         for (const Neighbour<D>& neighbour : neighbours) {
@@ -53,6 +61,7 @@ void World<D>::PairTests::each_closest_point_beside(std::uint32_t slot, std::uin
             const std::uint32_t found = items->slot(place);
             if (found == slot || found == other || !world_.are_neighbours(slot, found) || !world_.may_pair(slot, found))
                 return true;
+            if (is_large_ && !world_.are_boxes_near(slot, found)) return true;
             return visit_item(found);
         });
     }
@@ -67,11 +76,15 @@ bool World<D>::PairTests::is_center_covered(std::uint32_t slot) {
     if (const Center center = known.load(std::memory_order_relaxed); center != Center::unknown)
         return center == Center::covered;
     bool is_covered = false;
-    if (const BoundingBall<D> around = world_.ball(items_[slot]); std::isfinite(around.radius))
+    // The answer is for all pairs of the item, so it doesn't depend on their frame.
+    const DVec<D> frame = frame_;
+    set_frame(slot);
+    if (const BoundingBall<D> around = world_.ball(slot, frame_); std::isfinite(around.radius))
         each_closest_point_beside(slot, slot, around.center, 0, [&](const ClosestPoint<D>& closest) {
             is_covered = closest.distance < 0;
             return is_covered ? stop_visiting : 0.0;
         });
+    frame_ = frame;
     known.store(is_covered ? Center::covered : Center::uncovered, std::memory_order_relaxed);
     return is_covered;
 }
@@ -97,11 +110,16 @@ bool World<D>::PairTests::needs_filter(std::uint32_t slot, std::uint32_t other, 
     constexpr float rounding = 0x1p-21f;
     float reach = probe_reach * s + rounding * std::abs(contact.depth);
     for (int i = 0; i < D; ++i) reach += rounding * std::abs(contact.points[0].position[i]);
+    Vec<D> to_origin(0.0f);
+    if (is_large_) {
+        to_origin = to_float(frame_ - world_.positions_.origin());
+        for (int i = 0; i < D; ++i) reach += rounding * std::abs(to_origin[i]);
+    }
     const Vec<D> to_surface = contact.normal * (-0.5f * side);
     const float min_depth = contact.depth - static_cast<float>(0.5 * deepest_tolerance) * s;
     for (const ContactPoint<D>& point : contact.points) {
         if (point.depth < min_depth) continue;
-        const Vec<D> on_surface = point.position + to_surface * point.depth;
+        const Vec<D> on_surface = point.position + to_origin + to_surface * point.depth;
         const typename Neighbour<D>::Query near({on_surface - reach, on_surface + reach});
         bool is_alone = true;
         for (const Neighbour<D>& neighbour : neighbours)
@@ -182,6 +200,7 @@ void World<D>::PairTests::filter_contacts() {
     for (auto& unfiltered : last) {
         const WorldContact<D>& found = results_.found.contacts[unfiltered.found];
         const std::uint32_t a = found.a.index - 1, b = found.b.index - 1;
+        set_frame(a);
         unfiltered.for_a = needs_filter(a, b, found.contact, 1);
         unfiltered.for_b = needs_filter(b, a, found.contact, -1);
     }
@@ -189,12 +208,14 @@ void World<D>::PairTests::filter_contacts() {
         if (!unfiltered.for_a && !unfiltered.for_b) continue;
         const WorldContact<D>& found = results_.found.contacts[unfiltered.found];
         const std::uint32_t a = found.a.index - 1, b = found.b.index - 1;
+        set_frame(a);
         // Copies: the neighbours may take their places in the cache.
         const View<D> placed_a = placed_view(a), placed_b = placed_view(b);
         with_neighbours(a, b, unfiltered.for_a, unfiltered.for_b, [&](NeighbourSurfaces<D> neighbours) {
             const auto nothing = [] { return NearestToCenter<D>(); };
             if (unfiltered.for_a) neighbours.nearest_to_a = &memory_.nearest[0].of(a, nothing);
-            if (unfiltered.for_b) neighbours.nearest_to_b = &memory_.nearest[1].of(b, nothing);
+            // B's is about the frame of another A.
+            if (unfiltered.for_b && !is_large_) neighbours.nearest_to_b = &memory_.nearest[1].of(b, nothing);
             set_found(unfiltered.found,
                       filtered_contact(placed_a, placed_b, unfiltered.deepest.contact, found.contact, neighbours));
         });

@@ -35,8 +35,9 @@ void World<D>::PairTests::test_pair(const detail::SlotPair& near) {
         !world_.has_new_answer(near))
         return repeat_last(pair);
     ++results_.tested;
+    set_frame(near.a);
     // A pair may be near by its swept boxes alone; it touches only if the present boxes overlap.
-    const bool touch = (!world_.widened_ || overlaps(world_.box(near.a), world_.box(near.b))) && test_touch(pair);
+    const bool touch = (!world_.widened_ || world_.are_boxes_near(near.a, near.b)) && test_touch(pair);
     if (a.continuous || b.continuous) test_motion(pair, touch);
 }
 
@@ -73,16 +74,18 @@ void World<D>::PairTests::repeat_last(const IdPair& pair) {
     if (found == last.touching.end() || *found != pair) return;
     const auto i = static_cast<std::size_t>(found - last.touching.begin());
     const auto [begin, end] = last.found_of(i);
-    if (begin != end && world_.neighbours_changed(pair))
+    if (begin != end && world_.neighbours_changed(pair)) {
+        set_frame(pair.a.index - 1);
         find_contact(pair);
-    else
+    } else {
         results_.add_found(last, i);
+    }
     results_.add_touching(pair);
 }
 
 template <int D>
 bool World<D>::PairTests::balls_apart(const IdPair& pair) const {
-    return detail::apart(world_.ball(items_[pair.a.index - 1]), world_.ball(items_[pair.b.index - 1]));
+    return detail::apart(world_.ball(pair.a.index - 1, frame_), world_.ball(pair.b.index - 1, frame_));
 }
 
 /// Tests the shapes of a pair, and adds it to results_.touching if they touch.

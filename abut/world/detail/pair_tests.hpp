@@ -40,8 +40,16 @@ private:
     void with_neighbours(std::uint32_t a, std::uint32_t b, bool for_a, bool for_b, const Use& use);
     void set_found(std::size_t index, const detail::SurfaceContact<D>& filtered);
 
+    /// Relative to frame_.
     const View<D>& placed_view(std::uint32_t slot) {
-        return memory_.views.of(slot, [&] { return world_.placed(items_[slot]); });
+        const auto place = [&] { return items_[slot].stored.placed(items_[slot].pose); };
+        View<D>& view = memory_.views.of(slot, place);
+        if (is_large_) move_to_frame(slot, view);
+        return view;
+    }
+    void move_to_frame(std::uint32_t slot, View<D>& view);
+    void set_frame(std::uint32_t slot) {
+        if (is_large_) frame_ = world_.positions_.of(slot);
     }
     /// Of two items at the same time.
     std::pair<const View<D>&, const View<D>&> placed_views(const IdPair& pair) {
@@ -57,6 +65,9 @@ private:
     detail::PairTestMemory<D>& memory_;
     detail::PairResults<D>& results_;
     bool is_first_part_;
+    const bool is_large_ = world_.positions_.are_used();  ///< positions are doubles
+    /// The position that contacts and all that is tested are relative to: that of item A if positions are doubles.
+    detail::DVec<D> frame_{0.0};
 };
 
 }  // namespace abut

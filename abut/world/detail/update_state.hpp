@@ -36,8 +36,9 @@ struct PairTestMemory {
     /// Contacts are filtered together, so that the code of either step stays in the instruction cache.
     static constexpr std::size_t max_unfiltered = 32;
 
-    SlotCache<View<D>, 1024> views;  ///< fits in the second cache of common processors
-    View<D> first;                   ///< of the first item of a pair whose views have the same place
+    SlotCache<View<D>, 1024> views;        ///< fits in the second cache of common processors
+    SlotCache<DVec<D>, 1024> own_offsets;  ///< of these views as they were made, if positions are doubles
+    View<D> first;                         ///< of the first item of a pair whose views have the same place
     std::array<UnfilteredContact<D>, max_unfiltered> unfiltered;
     std::size_t unfiltered_count = 0;
     /// The points nearest to the centres of items, for contacts of which an item is A or B.
@@ -45,6 +46,7 @@ struct PairTestMemory {
 
     void clear() {
         views.clear();
+        own_offsets.clear();
         for (auto& of_side : nearest) of_side.clear();
     }
     /// Where the parts of the next contact go.
