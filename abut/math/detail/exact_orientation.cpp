@@ -1,5 +1,6 @@
 #include <abut/math/detail/exact_orientation.hpp>
 #include <abut/math/detail/expansion.hpp>
+#include <abut/math/predicates.hpp>
 
 #include <cmath>
 
@@ -16,18 +17,6 @@ struct ExactDifference {
         parts[1] = sum.error;
     }
 };
-
-/// Adds sign * p * q.
-template <std::size_t N>
-void add_product(Expansion<N>& sum, const ExactDifference& p, const ExactDifference& q, double sign) {
-    for (const double x : p.parts)
-        for (const double y : q.parts) {
-            if (x == 0 || y == 0) continue;
-            const ExactSum product = two_product(sign * x, y);
-            sum.add(product.error);
-            sum.add(product.rounded);
-        }
-}
 
 /// Adds sign * p * q * r.
 template <std::size_t N>
@@ -85,9 +74,13 @@ int exact_turn(const DVec<2>& a, const DVec<2>& b, const DVec<2>& c) {
     // Each product of two rounded differences is off by 3 u; the final difference adds u. The bound is 0 only if both
     // products are exactly 0.
     if (std::abs(turn) >= 0x1p-50 * (std::abs(left) + std::abs(right))) return sign_of(turn);
+    // If p and q are exact, so is the difference of the products, which are nearly equal.
+    if (p + a == b && p - b == -a && q + a == c && q - c == -a)
+        return sign_of_sum(turn, two_product(p.x, q.y).error, -two_product(p.y, q.x).error);
+    const ExactDifference one(1, 0);
     Expansion<16> sum;
-    add_product(sum, ExactDifference(b.x, a.x), ExactDifference(c.y, a.y), 1);
-    add_product(sum, ExactDifference(b.y, a.y), ExactDifference(c.x, a.x), -1);
+    add_product(sum, ExactDifference(b.x, a.x), ExactDifference(c.y, a.y), one, 1);
+    add_product(sum, ExactDifference(b.y, a.y), ExactDifference(c.x, a.x), one, -1);
     return sum.sign();
 }
 
