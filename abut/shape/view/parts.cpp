@@ -108,11 +108,15 @@ void each_part_along(const Composite<D>& composite, const MovingBox<D>& box, Par
     const double det = determinant(composite.place);
     // A box at rest has no direction; the plain box query covers it.
     if (composite.each_part_along != nullptr && det != 0 && box.direction != DVec<D>(0.0)) {
+        MovingBox<D> own = box;
+        own.length = reach;
+        if (has_identity_placement<D>(composite)) {
+            own.half += tolerance;
+            return composite.each_part_along(composite.object, own, visit);
+        }
         const Affine<D> to_local = inverse(composite.place, det);
-        MovingBox<D> own;
         own.center = to_local.point(box.center);
         own.direction = to_local.vector(box.direction);
-        own.length = reach;
         for (int i = 0; i < D; ++i) {
             double squares = 0, half = 0;
             for (int j = 0; j < D; ++j) {
@@ -122,10 +126,10 @@ void each_part_along(const Composite<D>& composite, const MovingBox<D>& box, Par
             }
             own.half[i] = half + std::sqrt(squares) * (composite.radius + tolerance) + composite.inner_radius;
         }
-        composite.each_part_along(composite.object, own, [&](const Convex<D>& part, std::uint32_t index) -> float {
+        const auto place_and_visit = [&](const Convex<D>& part, std::uint32_t index) -> float {
             return visit(placed_part(part, composite), index);
-        });
-        return;
+        };
+        return composite.each_part_along(composite.object, own, place_and_visit);
     }
     const DVec<D> end = box.center + box.direction * reach;
     Aabb<D> swept;
