@@ -147,11 +147,6 @@ void BruteForce<D>::visit_overlapping(const Aabb<D>& box, ItemCall visit) const 
 }
 
 template <int D>
-void BruteForce<D>::visit_along(const Ray<D>& ray, ReachCall visit) const {
-    visit_within(RayReach<D>(ray), visit);
-}
-
-template <int D>
 void BruteForce<D>::visit_along(const MovingBox<D>& box, ReachCall visit) const {
     visit_within(RayReach<D>::of_box(box), visit);
 }

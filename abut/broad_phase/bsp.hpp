@@ -74,7 +74,6 @@ private:
     void visit_pairs(const Bsp& other, detail::PairsCall visit) const;
     void visit_boxes(detail::BoxCall<D> visit) const;
     void visit_overlapping(const Aabb<D>& box, detail::ItemCall visit) const;
-    void visit_along(const Ray<D>& ray, detail::ReachCall visit) const;
     void visit_along(const MovingBox<D>& box, detail::ReachCall visit) const;
     void visit_near(const Aabb<D>& box, float reach, detail::ReachCall visit) const;
 

@@ -133,7 +133,6 @@ private:
     void visit_pairs(const SweepAndPrune& other, detail::PairsCall visit) const;
     void visit_boxes(detail::BoxCall<D> visit) const;
     void visit_overlapping(const Aabb<D>& box, detail::ItemCall visit) const;
-    void visit_along(const Ray<D>& ray, detail::ReachCall visit) const;
     void visit_along(const MovingBox<D>& box, detail::ReachCall visit) const;
     void visit_near(const Aabb<D>& box, float reach, detail::ReachCall visit) const;
 

@@ -49,7 +49,11 @@ public:
     }
     template <ReachVisitor F>
     void raycast(const Ray<D>& ray, F&& visit) const {
-        phase().visit_along(ray, reach_visitor(visit));
+        // A phase without a fast path for rays takes them as boxes.
+        if constexpr (requires(const Phase& phase, ReachCall call) { phase.visit_along(ray, call); })
+            phase().visit_along(ray, reach_visitor(visit));
+        else
+            sweep({DVec<D>(ray.origin), DVec<D>(0.0), DVec<D>(ray.direction), static_cast<double>(ray.length)}, visit);
     }
     template <ReachVisitor F>
     void sweep(const MovingBox<D>& box, F&& visit) const {

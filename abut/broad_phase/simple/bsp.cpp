@@ -204,12 +204,6 @@ void Bsp<D>::visit_overlapping(const Aabb<D>& box, ItemCall visit) const {
 }
 
 template <int D>
-void Bsp<D>::visit_along(const Ray<D>& ray, ReachCall visit) const {
-    RayReach<D> reach(ray);
-    if (!is_empty(bounds_) && !reach.is_exhausted()) visit_within(0, bounds_, reach, visit);
-}
-
-template <int D>
 void Bsp<D>::visit_along(const MovingBox<D>& box, ReachCall visit) const {
     auto reach = RayReach<D>::of_box(box);
     if (!is_empty(bounds_) && !reach.is_exhausted()) visit_within(0, bounds_, reach, visit);

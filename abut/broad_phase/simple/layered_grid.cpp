@@ -200,11 +200,6 @@ double LayeredGrid<D>::common_edge() const {
 }
 
 template <int D>
-void LayeredGrid<D>::visit_along(const Ray<D>& ray, ReachCall visit) const {
-    visit_along({DVec<D>(ray.origin), DVec<D>(0.0), DVec<D>(ray.direction), static_cast<double>(ray.length)}, visit);
-}
-
-template <int D>
 void LayeredGrid<D>::visit_along(const MovingBox<D>& box, ReachCall visit) const {
     if (entries_.empty()) return;
     WayPieces<D> pieces(box, bounds_, common_edge());

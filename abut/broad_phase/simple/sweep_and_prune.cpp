@@ -385,12 +385,6 @@ bool SweepAndPrune<D>::visit_overlapping_below(std::size_t level, std::size_t fi
 }
 
 template <int D>
-void SweepAndPrune<D>::visit_along(const Ray<D>& ray, ReachCall visit) const {
-    const auto turn = [axis = plan_.axis](const Vec<D>& v) { return detail::turned<D>(v, axis); };
-    visit_within(RayReach<D>(Ray<D>{turn(ray.origin), turn(ray.direction), ray.length}), visit);
-}
-
-template <int D>
 void SweepAndPrune<D>::visit_along(const MovingBox<D>& box, ReachCall visit) const {
     const auto turn = [axis = plan_.axis](const DVec<D>& v) { return detail::turned<D>(v, axis); };
     visit_within(RayReach<D>::of_box({turn(box.center), turn(box.half), turn(box.direction), box.length}), visit);
