@@ -4,6 +4,7 @@
 
 #include <abut/broad_phase/reach.hpp>
 #include <abut/broad_phase/visit.hpp>
+#include <abut/math/detail/next_float.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -26,8 +27,8 @@ Aabb<D> box_around_path(const RayReach<D>& path, double from, double to) {
         const double low = path.low()[i] + std::min(first, last), high = path.high()[i] + std::max(first, last);
         // The sum has a rounding error in the last digits of the largest term.
         const double tolerance = 1e-14 * (std::abs(path.low()[i]) + std::abs(path.high()[i]) + std::abs(first));
-        result.min[i] = std::nextafter(rounded(low - tolerance), -infinity);
-        result.max[i] = std::nextafter(rounded(high + tolerance), infinity);
+        result.min[i] = next_down(rounded(low - tolerance));
+        result.max[i] = next_up(rounded(high + tolerance));
     }
     return result;
 }

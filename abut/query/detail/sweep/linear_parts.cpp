@@ -1,3 +1,4 @@
+#include <abut/math/detail/next_float.hpp>
 #include <abut/query/detail/sdf/function_motion.hpp>
 #include <abut/query/detail/sweep/linear.hpp>
 
@@ -35,7 +36,7 @@ private:
     void each_part_on_path(const View<D>& shape, const Other& other, const DVec<D>& direction, const Visit& visit) {
         const auto visit_and_reach = [&](const Convex<D>& part, std::uint32_t index) -> float {
             visit(part, index);
-            return std::nextafter(static_cast<float>(reach()), std::numeric_limits<float>::infinity());
+            return next_up(static_cast<float>(reach()));
         };
         detail::with_part(
             shape, [&](const Part<D>& part) { visit(part, 0u); },
