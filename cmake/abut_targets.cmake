@@ -3,21 +3,47 @@ include(GNUInstallDirs)
 
 # Multiplying and adding in one rounding gives other bits on other machines. Users need the flag too, for what our headers
 # put inline into their code. Only C++ of compilers that know it: an `enable_language(CUDA)` next door must not see it.
-set(ABUT_SAME_BITS $<$<COMPILE_LANG_AND_ID:CXX,GNU,Clang,AppleClang>:-ffp-contract=off>)
+if(NOT MSVC)
+    set(ABUT_SAME_BITS $<$<COMPILE_LANG_AND_ID:CXX,GNU,Clang,AppleClang>:-ffp-contract=off>)
+else()
+    # clang-cl takes the flag in this form. cl joins products and sums for AVX2 by default, in versions before Visual Studio 2022,
+    # and has no flag against that alone.
+    set(ABUT_SAME_BITS
+        $<$<COMPILE_LANG_AND_ID:CXX,Clang>:/clang:-ffp-contract=off>
+        $<$<COMPILE_LANG_AND_ID:CXX,MSVC>:/fp:strict>)
+endif()
+
+# i386 has its numbers in SSE registers: those of x87 are wider, and are rounded when the compiler happens to store them.
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(i[3-6]86|x86|x86_64|AMD64)$" AND CMAKE_SIZEOF_VOID_P EQUAL 4)
+    list(APPEND ABUT_SAME_BITS $<$<COMPILE_LANG_AND_ID:CXX,GNU,Clang>:-msse2;-mfpmath=sse>)
+endif()
+
+# The vector units that Highway doesn't compile for, by its own macros. Those of x86 between SSE2 and AVX2 gain little. g++ for
+# Windows aligns no stack for AVX (its bug 54412). The NEON of 32-bit ARM takes denormals as zero. SVE and RISC-V's are not tested.
+set(ABUT_DISABLED_VECTOR_UNITS HWY_SSSE3|HWY_SSE4)
+if(WIN32 AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    string(APPEND ABUT_DISABLED_VECTOR_UNITS |HWY_AVX2|HWY_AVX3)
+elseif(APPLE OR NOT CMAKE_SYSTEM_PROCESSOR MATCHES "^(i[3-6]86|x86|x86_64|AMD64)$")
+    string(APPEND ABUT_DISABLED_VECTOR_UNITS |HWY_NEON*HWY_ARCH_ARM_V7|HWY_SVE|HWY_SVE2|HWY_SVE_256|HWY_SVE2_128|HWY_RVV)
+endif()
 
 # Our own sources are held to the warnings; who uses the library is not. g++ 12 warns of std::string's own copying (its bug
 # 105651), and from -O2 on it takes two neighbours from double to float and back for no change at all
 # (test/math/rounding_test.cpp): our headers don't do that, our sources do. Nobody reads errno after a root of ours, nor the
 # flags of the floating-point unit: without the promise to set them, a root is one instruction and no call.
 function(abut_strict target)
+    target_compile_definitions(${target} PRIVATE "HWY_DISABLED_TARGETS=(${ABUT_DISABLED_VECTOR_UNITS})")
+    if(MSVC)
+        # Unknown attributes, such as [[gnu::always_inline]], are for other compilers.
+        target_compile_options(${target} PRIVATE /W4 $<$<CXX_COMPILER_ID:MSVC>:/wd5030> $<$<BOOL:${ABUT_WERROR}>:/WX>)
+        return()
+    endif()
     target_compile_options(${target} PRIVATE
         $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize>
         $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-fno-math-errno;-fno-trapping-math>
         $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-Wall;-Wextra;-Wconversion;-Wshadow>
         $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
         $<$<AND:$<BOOL:${ABUT_WERROR}>,$<CXX_COMPILER_ID:GNU,Clang,AppleClang>>:-Werror>)
-    # Of x86's vector units SSE2, AVX2 and AVX-512 are compiled for; those between SSE2 and AVX2 gain little.
-    target_compile_definitions(${target} PRIVATE "HWY_DISABLED_TARGETS=(HWY_SSSE3|HWY_SSE4)")
 endfunction()
 
 # The headers that most files of a target include are read once for all of them. Inside somebody else's build, what is

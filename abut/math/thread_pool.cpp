@@ -1,9 +1,11 @@
+#include <abut/math/detail/mutex.hpp>
 #include <abut/math/thread_pool.hpp>
+
+#if ABUT_HAS_THREADS
 
 #include <algorithm>
 #include <atomic>
 #include <condition_variable>
-#include <mutex>
 #include <system_error>
 #include <thread>
 #include <vector>
@@ -119,3 +121,24 @@ void ThreadPool::run(std::uint32_t count, FunctionRef<void(std::uint32_t)> part)
 }
 
 }  // namespace abut
+
+#else
+
+namespace abut {
+
+struct ThreadPool::State {};
+
+ThreadPool::ThreadPool(std::uint32_t) {}
+ThreadPool::~ThreadPool() = default;
+
+std::uint32_t ThreadPool::workers() const {
+    return 1;
+}
+
+void ThreadPool::run(std::uint32_t count, FunctionRef<void(std::uint32_t)> part) {
+    for (std::uint32_t i = 0; i < count; ++i) part(i);
+}
+
+}  // namespace abut
+
+#endif

@@ -15,7 +15,7 @@ namespace abut {
 class ThreadPool final : public Executor {
 public:
     /// With this many workers, the calling thread included; by default as many as the machine runs at the same time. If
-    /// the system refuses a thread, with those before it.
+    /// the system refuses a thread, with those before it. Where the standard library has no threads, with one worker.
     explicit ThreadPool(std::uint32_t workers = 0);
     ~ThreadPool() override;
 

@@ -17,7 +17,7 @@ public:
     explicit Refused(const Filter& filter)
         : filter_(filter), note_([this](Id id) {
               if ((*filter_.accepts)(id)) return true;
-              const std::lock_guard lock(mutex_);
+              const detail::Lock lock(mutex_);
               refused_.push_back(id);
               return false;
           }) {}
@@ -70,25 +70,25 @@ RecordedWorld<D>::RecordedWorld(Write write, World<D> world, const WorldOptions&
 
 template <int D>
 std::optional<Problem> RecordedWorld<D>::problem() const {
-    const std::lock_guard lock(mutex_);
+    const detail::Lock lock(mutex_);
     return problem_;
 }
 
 template <int D>
 bool RecordedWorld<D>::is_recording() const {
-    const std::lock_guard lock(mutex_);
+    const detail::Lock lock(mutex_);
     return !problem_;
 }
 
 template <int D>
 void RecordedWorld<D>::end(const Problem& problem) const {
-    const std::lock_guard lock(mutex_);
+    const detail::Lock lock(mutex_);
     if (!problem_) problem_ = problem;
 }
 
 template <int D>
 void RecordedWorld<D>::record(Entry& entry) const {
-    const std::lock_guard lock(mutex_);
+    const detail::Lock lock(mutex_);
     if (!problem_) write_entry(entry);
 }
 
@@ -112,7 +112,7 @@ void RecordedWorld<D>::write_entry(Entry& entry) const {
 template <int D>
 bool RecordedWorld<D>::write_shape(Entry& entry, const View<D>& shape) const {
     entry.shape = content_hash(shape);
-    const std::lock_guard lock(mutex_);
+    const detail::Lock lock(mutex_);
     if (problem_ || written_shapes_.contains(entry.shape)) return true;
     World<D> alone;
     alone.add(Unowned<D>{shape});
@@ -233,7 +233,7 @@ void RecordedWorld<D>::set_pair_filter(std::function<bool(Id, Id)> accepts) {
     if (!pair_filter_) return world_.set_pair_filter(nullptr);
     world_.set_pair_filter([this](Id a, Id b) {
         if (pair_filter_(a, b)) return true;
-        const std::lock_guard lock(mutex_);
+        const detail::Lock lock(mutex_);
         refused_pairs_.push_back({a, b});
         return false;
     });

@@ -2,11 +2,11 @@
 
 // A world that writes every change and question to a file, which `abut replay` runs again. A bug report is a file.
 
+#include <abut/math/detail/mutex.hpp>
 #include <abut/world/world.hpp>
 
 #include <algorithm>
 #include <functional>
-#include <mutex>
 #include <unordered_set>
 #include <vector>
 
@@ -238,7 +238,7 @@ private:
     std::function<bool(Id, Id)> pair_filter_;
     std::vector<IdPair> refused_pairs_;  // in the present update
     bool has_events_ = false;            // the lists of the last update are those that a replay has
-    mutable std::mutex mutex_;           // of what follows, of write_ and of refused_pairs_
+    mutable detail::Mutex mutex_;        // of what follows, of write_ and of refused_pairs_
     mutable std::unordered_set<std::uint64_t> written_shapes_;
     mutable std::optional<Problem> problem_;
 };

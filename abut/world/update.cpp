@@ -1,6 +1,7 @@
 // The update: boxes, near pairs, contacts and events.
 
 #include <abut/broad_phase/detail/parallel.hpp>
+#include <abut/math/detail/mutex.hpp>
 #include <abut/math/detail/radix_sort.hpp>
 #include <abut/world/detail/pair_tests.hpp>
 #include <abut/world/world.hpp>
@@ -8,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <mutex>
 
 namespace abut {
 
@@ -62,7 +62,7 @@ void World<D>::find_near(Executor* executor) {
     if (filters_edges_) memory_->neighbours.begin_update(items_.size());
     // Whether the broad phases hold boxes that are larger than those of the items.
     const bool is_large = positions_.are_used(), is_wider = widened_ || is_large;
-    std::mutex mutex;
+    detail::Mutex mutex;
     const auto add = [&](const detail::ItemBoxes<D>& first, const detail::ItemBoxes<D>& second,
                          std::span<const detail::ItemPair> pairs) {
         constexpr std::size_t batch = 64;
@@ -77,7 +77,7 @@ void World<D>::find_near(Executor* executor) {
                 found[count++] = {std::min(slot, other), std::max(slot, other)};
             }
             pairs = pairs.subspan(std::min(batch, pairs.size()));
-            const std::lock_guard lock(mutex);
+            const detail::Lock lock(mutex);
             near_.insert(near_.end(), found.begin(), found.begin() + static_cast<std::ptrdiff_t>(count));
             if (!filters_edges_) continue;
             for (const auto& [a, b] : std::span(found).first(count)) {
@@ -133,10 +133,10 @@ void World<D>::test_near(Executor* executor) {
         state.memories[i].clear();
         state.free_memories.push_back(i);
     }
-    std::mutex mutex;
+    detail::Mutex mutex;
     const auto test_part = [&](std::uint32_t part) {
         const auto take = [&] {
-            const std::lock_guard lock(mutex);
+            const detail::Lock lock(mutex);
             const std::uint32_t memory = state.free_memories.back();
             state.free_memories.pop_back();
             return memory;
@@ -150,7 +150,7 @@ void World<D>::test_near(Executor* executor) {
         if (parts > 1) results.reserve(end - begin);
         PairTests(*this, state.memories[memory], results, part == 0).run(begin, end);
         stored = std::move(results);
-        const std::lock_guard lock(mutex);
+        const detail::Lock lock(mutex);
         state.free_memories.push_back(memory);
     };
     detail::run_parallel(executor, static_cast<std::uint32_t>(parts), test_part);

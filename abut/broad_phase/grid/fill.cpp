@@ -4,12 +4,12 @@
 #include <abut/broad_phase/boxes.hpp>
 #include <abut/broad_phase/grid/parallel_parts.hpp>
 #include <abut/broad_phase/grid/store.hpp>
+#include <abut/math/detail/mutex.hpp>
 #include <abut/math/simd/dispatch-inl.h>
 
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <mutex>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "abut/broad_phase/grid/fill.cpp"
@@ -318,7 +318,7 @@ void fill_parallel(const GridCells<D>& cells, std::span<const Aabb<D>> boxes, Aa
             }
         }
     });
-    std::mutex large_mutex;
+    Mutex large_mutex;
     executor.run(parts.count, [&](std::uint32_t job) {
         BoxBatch batch;
         clear(batch);
@@ -337,7 +337,7 @@ void fill_parallel(const GridCells<D>& cells, std::span<const Aabb<D>> boxes, Aa
             filler.add(
                 batch, kinds, own, [&list](std::uint32_t i) { return list.item[i]; },
                 [&](std::uint32_t item) {
-                    const std::lock_guard lock(large_mutex);
+                    const Lock lock(large_mutex);
                     large.push_back(item);
                 });
         }
