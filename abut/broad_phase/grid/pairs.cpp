@@ -2,6 +2,7 @@
 // depend on the target.
 
 #include <abut/broad_phase/grid/queries.hpp>
+#include <abut/math/detail/blob.hpp>
 #include <abut/math/simd/dispatch-inl.h>
 
 #include <algorithm>
@@ -34,7 +35,7 @@ struct Tile {
     std::uint64_t word(std::size_t w) const {
         std::uint64_t result;
         std::memcpy(&result, bits + 8 * w, 8);
-        return result;
+        return little(result);
     }
 };
 

@@ -8,6 +8,7 @@
 #include <abut/math/assert.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -140,8 +141,9 @@ HWY_INLINE Corners<D> corners_of(const Batch<D>& batch, std::size_t i) {
             hn::LoadInterleaved2(f, &batch.floats[row][i].low, result.v[2 * row], result.v[2 * row + 1]);
         } else {
             const I packed_pair = hn::Load(w, reinterpret_cast<const std::int32_t*>(&batch.steps[row][i]));
-            result.v[2 * row] = hn::ConvertTo(f, hn::ShiftRight<16>(hn::ShiftLeft<16>(packed_pair)));
-            result.v[2 * row + 1] = hn::ConvertTo(f, hn::ShiftRight<16>(packed_pair));
+            constexpr std::size_t first = std::endian::native == std::endian::little ? 0 : 1;
+            result.v[2 * row + first] = hn::ConvertTo(f, hn::ShiftRight<16>(hn::ShiftLeft<16>(packed_pair)));
+            result.v[2 * row + 1 - first] = hn::ConvertTo(f, hn::ShiftRight<16>(packed_pair));
         }
     return result;
 }
