@@ -6,10 +6,7 @@
 namespace abut {
 
 // Alone in its file, and weak: a program's own definition wins, even if all objects are linked.
-#if defined(__GNUC__)
-__attribute__((weak))
-#endif
-void assert_failed(const char* expression, const char* file, int line) {
+[[gnu::weak]] void assert_failed(const char* expression, const char* file, int line) {
     std::fprintf(stderr, "%s:%d: abut: assertion failed: %s\n", file, line, expression);
     std::abort();
 }

@@ -2,6 +2,7 @@
 
 // Tracing of geodesics over a walk mesh. For .cpp files.
 
+#include <abut/math/simd/compiler-inl.h>
 #include <abut/walk/unfolded_triangle-inl.h>
 
 #include <algorithm>
@@ -32,7 +33,7 @@ inline WalkLink link_across(const WalkTriangle* triangles, const WalkOptions& op
 /// time of long walks.
 inline void prefetch_neighbours(const WalkTriangle* triangles, std::uint32_t triangle) {
     for (const WalkLink& link : triangles[triangle].link)
-        __builtin_prefetch(&triangles[link.is_border() ? triangle : link.triangle()]);
+        prefetch(&triangles[link.is_border() ? triangle : link.triangle()]);
 }
 
 /// Traces the geodesic from its current triangle until the step ends within one, or a side stops it.

@@ -2,6 +2,7 @@
 // triangles of a leaf at once in double. Highway compiles this file once for each instruction set and chooses the best
 // one at run time.
 
+#include <abut/math/simd/compiler-inl.h>
 #include <abut/walk/nearest_search.hpp>
 
 #undef HWY_TARGET_INCLUDE
@@ -220,7 +221,7 @@ private:
     /// Pushes the other children. If no child is within the limit, the result is an entry that never passes it.
     HWY_INLINE StackEntry nearest_child(std::uint32_t ref, StackEntry* stack, std::size_t& stack_size) const {
         const MeshNode& node = tree_.node(ref);
-        __builtin_prefetch(node.child);  // stored apart from the boxes, and needed right after them
+        prefetch(node.child);  // stored apart from the boxes, and needed right after them
         HWY_ALIGN Number squares[mesh_lanes];
         std::uint32_t bits = boxes_(node, limit_, squares);
         if (bits == 0) return {std::numeric_limits<Number>::quiet_NaN(), detail::bvh_none};

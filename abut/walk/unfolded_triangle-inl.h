@@ -102,7 +102,7 @@ struct UnfoldedTriangle {
     /// Reflects the coordinates across the geodesic.
     void reflect() {
         std::swap(right, left);
-        for (lanes::Double2* corner : {&right, &left, &rest}) (*corner)[1] = -(*corner)[1];
+        for (lanes::Double2* corner : {&right, &left, &rest}) *corner = *corner * lanes::Double2{1, -1};
         mirrored = !mirrored;
     }
     /// Moves the origin by a vector.
@@ -166,7 +166,7 @@ inline UnfoldedTriangle unfolded_ahead(const WalkTriangle& walk, std::uint32_t t
     lanes::Double2 corner[3] = {-origin, along - origin, other - origin};
     if (tolerance > 0) {
         for (lanes::Double2& each : corner)
-            if (std::abs(each[1]) <= tolerance * std::abs(each[0])) each[1] = 0;
+            if (std::abs(each[1]) <= tolerance * std::abs(each[0])) each = lanes::Double2{each[0], 0};
     }
     UnfoldedTriangle here;
     here.triangle = triangle;

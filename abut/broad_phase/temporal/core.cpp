@@ -5,7 +5,7 @@
 #include <abut/broad_phase/detail/parallel.hpp>
 #include <abut/broad_phase/temporal/core.hpp>
 #include <abut/math/assert.hpp>
-#include <abut/math/simd/float4-inl.h>
+#include <abut/math/simd/lanes-inl.h>
 #include <abut/math/simd/library_entry.hpp>
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 namespace abut::detail {
 namespace {
 
-using float4::Floats;
+using lanes::Floats4;
 
 constexpr float unbounded = std::numeric_limits<float>::infinity();
 constexpr double endless = std::numeric_limits<double>::infinity();
@@ -84,15 +84,16 @@ float usable_speed(float speed) {
 
 /// Returns the pairs of a block that are due, one bit each, and leaves the earliest of the others in `next_due`.
 std::uint64_t take_due(PairBlock& block, float now) {
-    const Floats never = float4::broadcast(PairBlock::never);
-    Floats earliest = never;
+    const Floats4 never = PairBlock::never;
+    Floats4 earliest = never;
     std::uint64_t result = 0;
     for (std::size_t i = 0; i < PairBlock::capacity; i += 4) {
-        const Floats due = float4::load(&block.due[i]);
-        result |= std::uint64_t{float4::bits(due <= now)} << i;
-        earliest = float4::min(earliest, due <= now ? never : due);
+        const Floats4 due = lanes::at(&block.due[i]);
+        const lanes::Mask4 is_due = due <= now;
+        result |= std::uint64_t{lanes::bits(is_due)} << i;
+        earliest = lanes::lesser(earliest, lanes::select(is_due, never, due));
     }
-    block.next_due = float4::min_lane(earliest);
+    block.next_due = lanes::least_lane(earliest);
     return result;
 }
 

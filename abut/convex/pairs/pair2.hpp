@@ -72,14 +72,14 @@ template <class Core>
     const Double2 squares = off_x * off_x + off_y * off_y;
     const std::uint32_t other = points.mask == 2 || (points.mask == 3 && squares[1] > squares[0]) ? 1 : 0;
     const std::uint32_t place = points.mask == 1 || points.mask == 2 ? 1 : 0;
-    const auto put = [&](std::uint32_t i, double x, double y, double deep, std::uint32_t name) {
-        points.x[i] = x;
-        points.y[i] = y;
-        points.depth[i] = deep;
-        points.features[i] = name;
+    const auto pair = [&](double other_one, double added) {
+        return place == 1 ? lanes::double2(other_one, added) : lanes::double2(added, other_one);
     };
-    put(1 - place, points.x[other], points.y[other], points.depth[other], points.features[other]);
-    put(place, position[0], position[1], depth, feature);
+    points.x = pair(points.x[other], position[0]);
+    points.y = pair(points.y[other], position[1]);
+    points.depth = pair(points.depth[other], depth);
+    points.features[1 - place] = points.features[other];
+    points.features[place] = feature;
     points.mask = points.mask == 0 ? 1 : 3;
 }
 

@@ -24,22 +24,18 @@ PointLocation locate_past_edge(PolygonSoa sides, Double2 point, std::uint32_t si
 
 /// Doubles with an index in their last bits, so that a maximum also gives its index.
 struct IndexedLanes {
-    static constexpr long long index_mask = 15;
+    static constexpr std::uint64_t index_mask = 15;
 
     /// The bits of each index.
-    alignas(16) static constexpr long long numbers[max_soa_edges] = {15, 14, 13, 12, 11, 10, 9, 8,
-                                                                     7,  6,  5,  4,  3,  2,  1, 0};
-    static lanes::Double2 put(lanes::Double2 v, const long long* number) {
-        lanes::Mask2 bits;
-        __builtin_memcpy(&bits, number, sizeof(bits));
-        return reinterpret_cast<lanes::Double2>((reinterpret_cast<lanes::Mask2>(v) & ~index_mask) | bits);
+    alignas(16) static constexpr std::uint64_t numbers[max_soa_edges] = {15, 14, 13, 12, 11, 10, 9, 8,
+                                                                         7,  6,  5,  4,  3,  2,  1, 0};
+    static lanes::Double2 put(lanes::Double2 v, const std::uint64_t* number) {
+        return lanes::with_low_bits(v, index_mask, number);
     }
     static std::uint32_t number(lanes::Double2 v) {
-        return static_cast<std::uint32_t>(index_mask - (reinterpret_cast<lanes::Mask2>(v)[0] & index_mask));
+        return static_cast<std::uint32_t>(index_mask - (std::bit_cast<std::uint64_t>(v[0]) & index_mask));
     }
-    static double value(lanes::Double2 v) {
-        return reinterpret_cast<lanes::Double2>(reinterpret_cast<lanes::Mask2>(v) & ~index_mask)[0];
-    }
+    static double value(lanes::Double2 v) { return lanes::without_bits(v, index_mask)[0]; }
 };
 static_assert(max_soa_edges == IndexedLanes::index_mask + 1);
 
@@ -63,7 +59,7 @@ struct ScaledPoint {
     const Double2 unscaled_x = first(local.unscaled), unscaled_y = second(local.unscaled);
     Double2 widest = double2(-std::numeric_limits<double>::infinity());
     const double *numbers = sides.at(0), *const end = numbers + soa_rows * sides.capacity();
-    const long long* index = IndexedLanes::numbers;
+    const std::uint64_t* index = IndexedLanes::numbers;
     for (; numbers != end; numbers += soa_rows * soa_lanes, index += soa_lanes) {
         for (std::size_t i = 0; i < soa_lanes; i += 2) {
             const Double2 height = aligned_at(numbers + 2 * soa_lanes + i) * unscaled_x +
@@ -88,14 +84,14 @@ struct ScaledPoint {
     const Double2 squares = from_x * from_x + from_y * from_y;
     // Behind the start: x of the normal times y is less than y times x. Beyond the end: greater.
     const Double2 left = double2(normal_x) * from_y, right = double2(normal_y) * from_x;
-    const Mask2 behind = __builtin_shufflevector(left, right, 0, 3) < __builtin_shufflevector(right, left, 0, 3);
+    const Mask2 behind = ends(left, right) < ends(right, left);
     const std::uint32_t past = bits(behind);
     if (past == 0) return Near::within;
 
     const Double2 away = root(squares), inverse_away = away * (Double2{1, 1} / squares);
     const std::uint32_t before = past & 1, last = (side == 0 ? sides.count : side) - 1;
     const std::uint32_t next = after ^ ((after ^ last) & (0u - before));
-    const Mask2 start = __builtin_shufflevector(behind, behind, 0, 0);
+    const Mask2 start = first(behind);
     const Double2 from = select(start, lower(from_x, from_y), upper(from_x, from_y));
     const double outside = sides.normal_x(next) * from[1] - sides.normal_y(next) * from[0];
     static constexpr double outwards[2] = {-1, 1};
@@ -117,11 +113,6 @@ struct ScaledPoint {
     if (near == Near::unclear) place = locate_past_edge(core.sides(), local.point(), place.first, place.gap);
     return near == Near::within || (near == Near::unclear && place.gap <= reach);
 }
-/// The signs are those of another vector.
-inline Double2 with_signs_of(Double2 v, Double2 signs) {
-    const lanes::Mask2 magnitudes = lanes::Mask2{0, 0} + 0x7fffffffffffffff;
-    return lanes::select(magnitudes, v, signs);
-}
 [[gnu::always_inline]] inline bool locate(const BoxCore& core, const ScaledPoint& local, double reach,
                                           PointLocation& place) {
     using namespace lanes;
@@ -133,7 +124,7 @@ inline Double2 with_signs_of(Double2 v, Double2 signs) {
                       per_away = away * (Double2{1, 1} / square);
         static constexpr std::uint32_t corners[4] = {0, 1, 3, 2};
         place.gap = away[0];
-        place.normal = with_signs_of(outside * per_away, point);
+        place.normal = flipped_by(outside * per_away, point);
         place.first = place.second = corners[back];
     } else {
         const std::uint32_t along_x = beyond[0] > beyond[1] ? 1 : 0;

@@ -53,9 +53,7 @@ struct BoxPassage {
         const Double2 closes = greater(magnitude(motion), double2(min_closing_speed)),
                       inverse_speed = Double2{1, 1} / closes;
         // Mirrored, so that it moves towards the high end.
-        constexpr long long sign = static_cast<long long>(1ull << 63);
-        const Mask2 rotated = reinterpret_cast<Mask2>(motion) & Mask2{sign, sign};
-        const Double2 middle = reinterpret_cast<Double2>(reinterpret_cast<Mask2>(place) ^ rotated);
+        const Double2 middle = flipped_by(place, motion);
         const Double2 near = middle - reach, far = middle + reach, tolerance = double2(depth);
         ahead = signs(motion) ^ 3;
         enters = near * inverse_speed;

@@ -95,36 +95,22 @@ FieldSample<D> sample_reference(const FieldData<D>& data, const Vec<D>& point) {
 // The same operations for 3D in SIMD, in the same order.
 
 using field_lanes::Ends;
-using float4::Floats;
-using float4::Mask;
-
-Floats root(Floats v) {
-#ifdef __SSE2__
-    return _mm_sqrt_ps(v);
-#else
-    return Floats{std::sqrt(v[0]), std::sqrt(v[1]), std::sqrt(v[2]), std::sqrt(v[3])};
-#endif
-}
-/// Copies the sign of another number.
-Floats signed_like(Floats magnitude, Floats sign) {
-    constexpr auto top = static_cast<std::int32_t>(0x80000000);
-    return std::bit_cast<Floats>(std::bit_cast<Mask>(magnitude) |
-                                 (std::bit_cast<Mask>(sign) & Mask{top, top, top, top}));
-}
+using lanes::Floats4;
+using lanes::Ints4;
 
 /// Four gradients.
 struct Gradients {
-    Floats x, y, z;
+    Floats4 x, y, z;
 
     /// Unpacks the lower 16 bits of each lane.
-    explicit Gradients(Mask bits) {
-        x = __builtin_convertvector(bits << 24 >> 24, Floats) * float4::broadcast(1.0f / 127);
-        y = __builtin_convertvector(bits << 16 >> 24, Floats) * float4::broadcast(1.0f / 127);
-        z = float4::broadcast(1) - float4::magnitude(x) - float4::magnitude(y);
-        const Floats fold = float4::max(-z, float4::broadcast(0));
-        x = x - signed_like(fold, x);
-        y = y - signed_like(fold, y);
-        const Floats inverse = float4::broadcast(1) / root(x * x + y * y + z * z);
+    explicit Gradients(Ints4 bits) {
+        x = lanes::converted(bits << 24 >> 24) * Floats4(1.0f / 127);
+        y = lanes::converted(bits << 16 >> 24) * Floats4(1.0f / 127);
+        z = 1 - lanes::magnitude(x) - lanes::magnitude(y);
+        const Floats4 fold = lanes::greater(-z, Floats4(0));
+        x = x - lanes::flipped_by(fold, x);
+        y = y - lanes::flipped_by(fold, y);
+        const Floats4 inverse = 1 / lanes::root(x * x + y * y + z * z);
         x = x * inverse;
         y = y * inverse;
         z = z * inverse;
@@ -133,49 +119,44 @@ struct Gradients {
 
 template <bool with_normal>
 FieldSample<3> sample_simd(const FieldData<3>& data, const Vec3& point) {
-    const field_lanes::Stencil at = field_lanes::stencil(data, Floats{point.x, point.y, point.z, 0});
-    if (at.coarse) return field_lanes::sample(data, Floats{point.x, point.y, point.z, 0});
+    const field_lanes::Stencil at = field_lanes::stencil(data, Floats4{point.x, point.y, point.z, 0});
+    if (at.coarse) return field_lanes::sample(data, Floats4{point.x, point.y, point.z, 0});
 
     // Lanes of `low` are the corners 0, 2, 4 and 6, those of `high` 1, 3, 5 and 7.
     const bool steps = data.step != 0;
     const float unit = steps ? data.step : 1.0f;
-    const Floats scale = float4::broadcast(unit * data.frame.inverse);
+    const Floats4 scale = Floats4(unit * data.frame.inverse);
     Ends distance = steps ? field_lanes::ends(data.steps.data() + at.first, at.row, at.slice)
                           : field_lanes::ends(data.distance.data() + at.first, at.row, at.slice);
     distance = {distance.low * scale, distance.high * scale};
     const std::uint16_t* directions = data.direction.data() + at.first;
-    Mask even, odd;
-    for (int lane = 0; lane < 4; ++lane) {
-        const std::uint16_t* pair = directions + (lane & 1 ? at.row : 0) + (lane & 2 ? at.slice : 0);
-        even[lane] = pair[0];
-        odd[lane] = pair[1];
-    }
-    const Gradients low(even), high(odd);
+    const std::uint16_t* const pairs[4] = {directions, directions + at.row, directions + at.slice,
+                                           directions + at.row + at.slice};
+    const Gradients low(Ints4{pairs[0][0], pairs[1][0], pairs[2][0], pairs[3][0]}),
+        high(Ints4{pairs[0][1], pairs[1][1], pairs[2][1], pairs[3][1]});
 
-    const Floats x = float4::broadcast(at.fraction[0]), y = float4::broadcast(at.fraction[1]) - Floats{0, 1, 0, 1},
-                 z = float4::broadcast(at.fraction[2]) - Floats{0, 0, 1, 1};
+    const Floats4 x = Floats4(at.fraction[0]), y = Floats4(at.fraction[1]) - Floats4{0, 1, 0, 1},
+                  z = Floats4(at.fraction[2]) - Floats4{0, 0, 1, 1};
     const Ends plane{distance.low + (low.x * x + low.y * y + low.z * z),
-                     distance.high + (high.x * (x - float4::broadcast(1)) + high.y * y + high.z * z)};
-    constexpr auto top = static_cast<std::int32_t>(0x80000000);
-    const auto with_signs = [](Floats v, Mask signs) { return std::bit_cast<Floats>(std::bit_cast<Mask>(v) ^ signs); };
-    const Mask lower_y{top, 0, top, 0}, lower_z{top, top, 0, 0};
-    const Floats outward = (-low.x + with_signs(low.y, lower_y) + with_signs(low.z, lower_z)) +
-                           (high.x + with_signs(high.y, lower_y) + with_signs(high.z, lower_z));
+                     distance.high + (high.x * (x - 1) + high.y * y + high.z * z)};
+    const Floats4 lower_y{-1, 1, -1, 1}, lower_z{-1, -1, 1, 1};
+    const Floats4 outward = (-low.x + lanes::flipped_by(low.y, lower_y) + lanes::flipped_by(low.z, lower_z)) +
+                            (high.x + lanes::flipped_by(high.y, lower_y) + lanes::flipped_by(high.z, lower_z));
     const bool is_convex = (outward[0] + outward[1]) + (outward[2] + outward[3]) > 0;
 
-    const Floats interpolated = field_lanes::distance_and_slope(distance, at.fraction),
-                 extrapolated = field_lanes::distance_and_slope(plane, at.fraction);
+    const Floats4 interpolated = field_lanes::distance_and_slope(distance, at.fraction),
+                  extrapolated = field_lanes::distance_and_slope(plane, at.fraction);
     const float smooth = 0.5f * (interpolated[0] + extrapolated[0]);
-    const float sharp = is_convex ? float4::max_lane(float4::max(plane.low, plane.high))
-                                  : float4::min_lane(float4::min(plane.low, plane.high));
+    const float sharp = is_convex ? lanes::greatest_lane(lanes::greater(plane.low, plane.high))
+                                  : lanes::least_lane(lanes::lesser(plane.low, plane.high));
     const float difference = is_convex ? interpolated[0] - sharp : sharp - interpolated[0];
     const float weight = std::clamp(16 * difference, 0.0f, 1.0f);
     FieldSample<3> result{lerp(smooth, sharp, weight) * data.cell, {1, 0, 0}};
     if constexpr (!with_normal) return result;
 
-    const std::uint32_t is_low = float4::bits(plane.low == float4::broadcast(sharp));
-    const std::uint32_t is_high = float4::bits(plane.high == float4::broadcast(sharp));
-    const int lane = std::countr_zero(is_low | is_high | 8u);
+    const std::uint32_t is_low = lanes::bits(plane.low == Floats4(sharp));
+    const std::uint32_t is_high = lanes::bits(plane.high == Floats4(sharp));
+    const auto lane = static_cast<std::size_t>(std::countr_zero(is_low | is_high | 8u));
     const Gradients& of = (is_low >> lane & 1) != 0 ? low : high;
     const Vec3 edge_gradient(of.x[lane], of.y[lane], of.z[lane]);
     const Vec3 along(field_lanes::distance_of({low.x, high.x}, at.fraction),
@@ -184,8 +165,10 @@ FieldSample<3> sample_simd(const FieldData<3>& data, const Vec3& point) {
     const float change = weight > 0 && weight < 1 ? (is_convex ? 16.0f : -16.0f) * (sharp - smooth) : 0.0f;
     Vec3 rise;
     for (int a = 0; a < 3; ++a) {
-        const float smooth_rise = 0.5f * (interpolated[a + 1] + (extrapolated[a + 1] + along[a]));
-        rise[a] = lerp(smooth_rise, edge_gradient[a], weight) + change * (interpolated[a + 1] - edge_gradient[a]);
+        const auto slope_lane = static_cast<std::size_t>(a) + 1;
+        const float slope = interpolated[slope_lane];
+        const float smooth_rise = 0.5f * (slope + (extrapolated[slope_lane] + along[a]));
+        rise[a] = lerp(smooth_rise, edge_gradient[a], weight) + change * (slope - edge_gradient[a]);
     }
     result.normal = direction_of(rise);
     return result;

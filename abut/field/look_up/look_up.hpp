@@ -4,7 +4,7 @@
 // implementation `linear_sample`. For .cpp files.
 
 #include <abut/field/look_up/stencil.hpp>
-#include <abut/math/simd/float4-inl.h>
+#include <abut/math/simd/lanes-inl.h>
 
 #include <bit>
 #include <cstring>
@@ -21,30 +21,21 @@ FieldSample<3> gradient_sample_reference(const FieldData<3>& data, const Vec3& p
 
 namespace field_lanes {
 
-using float4::Floats;
-using Ints = float4::Mask;
+using lanes::Floats4;
+using lanes::Ints4;
 
-inline Floats truncated(Floats v) {
-    return __builtin_convertvector(__builtin_convertvector(v, Ints), Floats);
-}
-
-/// Loads two numbers from each of two places.
-[[gnu::always_inline]] inline Floats pairs(const float* a, const float* b) {
-#ifdef __SSE2__
-    const __m128 low = _mm_castsi128_ps(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(a)));
-    return _mm_loadh_pi(low, reinterpret_cast<const __m64*>(b));
-#else
-    return Floats{a[0], a[1], b[0], b[1]};
-#endif
+template <int lane>
+Floats4 all(Floats4 v) {
+    return lanes::shuffled<lane, lane, lane, lane>(v, v);
 }
 
 /// The distances at the lower and upper ends of a cell's edges along the first axis.
 struct Ends {
-    Floats low, high;
+    Floats4 low, high;
 };
 [[gnu::always_inline]] inline Ends ends(const float* at, std::uint32_t row, std::uint32_t slice) {
-    const Floats near = pairs(at, at + row), far = pairs(at + slice, at + slice + row);
-    return {__builtin_shufflevector(near, far, 0, 2, 4, 6), __builtin_shufflevector(near, far, 1, 3, 5, 7)};
+    const Floats4 near = lanes::pairs_at(at, at + row), far = lanes::pairs_at(at + slice, at + slice + row);
+    return {lanes::shuffled<0, 2, 0, 2>(near, far), lanes::shuffled<1, 3, 1, 3>(near, far)};
 }
 [[gnu::always_inline]] inline Ends ends(const std::int16_t* at, std::uint32_t row, std::uint32_t slice) {
     const auto pair = [&](std::size_t i) {
@@ -52,55 +43,55 @@ struct Ends {
         std::memcpy(&result, at + i, sizeof(result));
         return result;
     };
-    const Ints packed_pair{pair(0), pair(row), pair(slice), pair(std::size_t{slice} + row)};
-    const Ints low = packed_pair << 16 >> 16, high = packed_pair >> 16;
+    const Ints4 packed_pair{pair(0), pair(row), pair(slice), pair(std::size_t{slice} + row)};
+    const Ints4 low = packed_pair << 16 >> 16, high = packed_pair >> 16;
     if constexpr (std::endian::native == std::endian::little)
-        return {__builtin_convertvector(low, Floats), __builtin_convertvector(high, Floats)};
+        return {lanes::converted(low), lanes::converted(high)};
     else
-        return {__builtin_convertvector(high, Floats), __builtin_convertvector(low, Floats)};
+        return {lanes::converted(high), lanes::converted(low)};
 }
 
 /// Interpolates along the second axis, in the first two lanes.
-[[gnu::always_inline]] inline Floats along_second(Floats v, Floats fraction) {
-    const Floats low = __builtin_shufflevector(v, v, 0, 2, 0, 2), high = __builtin_shufflevector(v, v, 1, 3, 1, 3);
+[[gnu::always_inline]] inline Floats4 along_second(Floats4 v, Floats4 fraction) {
+    const Floats4 low = lanes::shuffled<0, 2, 0, 2>(v, v), high = lanes::shuffled<1, 3, 1, 3>(v, v);
     return low + fraction * (high - low);
 }
 
-[[gnu::always_inline]] inline float distance_of(const Ends& at, Floats fraction) {
-    const Floats first = at.low + __builtin_shufflevector(fraction, fraction, 0, 0, 0, 0) * (at.high - at.low);
-    const Floats second = along_second(first, __builtin_shufflevector(fraction, fraction, 1, 1, 1, 1));
+[[gnu::always_inline]] inline float distance_of(const Ends& at, Floats4 fraction) {
+    const Floats4 first = at.low + all<0>(fraction) * (at.high - at.low);
+    const Floats4 second = along_second(first, all<1>(fraction));
     return lerp(second[0], second[1], fraction[2]);
 }
 
 /// The distance and its slope along the three axes.
-[[gnu::always_inline]] inline Floats distance_and_slope(const Ends& at, Floats fraction) {
-    const Floats rise = at.high - at.low;
-    const Floats first = at.low + __builtin_shufflevector(fraction, fraction, 0, 0, 0, 0) * rise;
-    const Floats fraction_y = __builtin_shufflevector(fraction, fraction, 1, 1, 1, 1);
-    const Floats low = __builtin_shufflevector(first, rise, 0, 2, 4, 6);
-    const Floats high = __builtin_shufflevector(first, rise, 1, 3, 5, 7);
-    const Floats step = high - low;
-    const Floats second = low + fraction_y * step;  // near and far: distance, slope along x
-    const Floats near = __builtin_shufflevector(second, step, 0, 2, 4, 4);
-    const Floats far = __builtin_shufflevector(second, step, 1, 3, 5, 5);
-    Floats third = near + __builtin_shufflevector(fraction, fraction, 2, 2, 2, 2) * (far - near);
-    third[3] = second[1] - second[0];
-    return third;
+[[gnu::always_inline]] inline Floats4 distance_and_slope(const Ends& at, Floats4 fraction) {
+    const Floats4 rise = at.high - at.low;
+    const Floats4 first = at.low + all<0>(fraction) * rise;
+    const Floats4 fraction_y = all<1>(fraction);
+    const Floats4 low = lanes::shuffled<0, 2, 0, 2>(first, rise);
+    const Floats4 high = lanes::shuffled<1, 3, 1, 3>(first, rise);
+    const Floats4 step = high - low;
+    const Floats4 second = low + fraction_y * step;  // near and far: distance, slope along x
+    const Floats4 near = lanes::shuffled<0, 2, 0, 0>(second, step);
+    const Floats4 far = lanes::shuffled<1, 3, 1, 1>(second, step);
+    const Floats4 change = far - near, third = near + all<2>(fraction) * change;
+    // The last lane is the slope along z.
+    return lanes::shuffled<0, 1, 0, 2>(third, lanes::shuffled<2, 2, 0, 0>(third, change));
 }
 
 /// The position of a point among the samples, as in FieldStencil.
 struct Stencil {
-    Floats fraction;
+    Floats4 fraction;
     std::uint32_t first, row, slice;
     bool coarse;
 };
 
-[[gnu::always_inline]] inline Stencil stencil(const FieldData<3>& data, Floats point) {
+[[gnu::always_inline]] inline Stencil stencil(const FieldData<3>& data, Floats4 point) {
     const FieldFrame<3>& frame = data.frame;
-    const Floats place = float4::min((point - float4::load(frame.low.data())) * float4::broadcast(frame.inverse),
-                                     float4::load(frame.end.data()));
-    const Floats cell = float4::min(truncated(place), float4::load(frame.last.data()));
-    const Ints low = __builtin_convertvector(cell, Ints);
+    const Floats4 place =
+        lanes::lesser((point - lanes::at(frame.low.data())) * Floats4(frame.inverse), lanes::at(frame.end.data()));
+    const Floats4 cell = lanes::lesser(lanes::converted(lanes::truncated(place)), lanes::at(frame.last.data()));
+    const Ints4 low = lanes::truncated(cell);
     Stencil result{place - cell, 0, 0, 0, false};
     const auto x = static_cast<std::uint32_t>(low[0]), y = static_cast<std::uint32_t>(low[1]),
                z = static_cast<std::uint32_t>(low[2]);
@@ -118,8 +109,8 @@ struct Stencil {
         result.first = brick * brick_samples<3> + x % side + y % side * result.row + z % side * result.slice;
         return result;
     }
-    const Ints inside = low & Ints{side - 1, side - 1, side - 1, side - 1};
-    result.fraction = (result.fraction + __builtin_convertvector(inside, Floats)) * float4::broadcast(1.0f / side);
+    const Ints4 inside = low & Ints4{side - 1, side - 1, side - 1, side - 1};
+    result.fraction = (result.fraction + lanes::converted(inside)) * Floats4(1.0f / side);
     result.row = frame.corners.y;
     result.slice = frame.corners.z;
     result.first = x / side + y / side * result.row + z / side * result.slice;
@@ -128,11 +119,11 @@ struct Stencil {
 }
 
 /// False also for NaN.
-[[gnu::always_inline]] inline bool within(const FieldFrame<3>& frame, Floats point) {
-    return float4::bits((point >= float4::load(frame.low.data())) & (point <= float4::load(frame.high.data()))) == 15;
+[[gnu::always_inline]] inline bool within(const FieldFrame<3>& frame, Floats4 point) {
+    return lanes::bits((point >= lanes::at(frame.low.data())) & (point <= lanes::at(frame.high.data()))) == 15;
 }
 
-[[gnu::always_inline]] inline float distance(const FieldData<3>& data, Floats point) {
+[[gnu::always_inline]] inline float distance(const FieldData<3>& data, Floats4 point) {
     const Stencil at = stencil(data, point);
     if (!at.coarse && data.step != 0)
         return distance_of(ends(data.steps.data() + at.first, at.row, at.slice), at.fraction) * data.step;
@@ -140,9 +131,9 @@ struct Stencil {
     return distance_of(ends(from + at.first, at.row, at.slice), at.fraction);
 }
 
-[[gnu::always_inline]] inline FieldSample<3> sample(const FieldData<3>& data, Floats point) {
+[[gnu::always_inline]] inline FieldSample<3> sample(const FieldData<3>& data, Floats4 point) {
     const Stencil at = stencil(data, point);
-    Floats found;
+    Floats4 found;
     float unit = 1, per_length = data.frame.inverse;
     if (!at.coarse && data.step != 0) {
         found = distance_and_slope(ends(data.steps.data() + at.first, at.row, at.slice), at.fraction);
@@ -159,7 +150,7 @@ struct Stencil {
 }  // namespace field_lanes
 
 inline float look_up_distance(const FieldData<3>& data, const Vec3& point) {
-    const float4::Floats p{point.x, point.y, point.z, 0};
+    const lanes::Floats4 p{point.x, point.y, point.z, 0};
     if (!field_lanes::within(data.frame, p)) [[unlikely]]
         return outer_sample(data, point).distance;
     if (data.lookup == FieldLookup::gradient) [[unlikely]]
@@ -167,7 +158,7 @@ inline float look_up_distance(const FieldData<3>& data, const Vec3& point) {
     return field_lanes::distance(data, p);
 }
 inline FieldSample<3> look_up_sample(const FieldData<3>& data, const Vec3& point) {
-    const float4::Floats p{point.x, point.y, point.z, 0};
+    const lanes::Floats4 p{point.x, point.y, point.z, 0};
     if (!field_lanes::within(data.frame, p)) [[unlikely]]
         return outer_sample(data, point);
     if (data.lookup == FieldLookup::gradient) [[unlikely]]

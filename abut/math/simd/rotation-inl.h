@@ -47,7 +47,6 @@ struct Turned {
     const Double2 xx_yy = xy * sxy, zz = z * sz, xz_yz = xy * sz, twist = swapped(w * sxy);
     const Double2 diagonal = 1 - (swapped(xx_yy) + zz), product = xy * swapped(sxy), wz = w * sz;
     const Double2 plus = xz_yz + twist, minus = xz_yz - twist;
-    const auto ends = [](Double2 a, Double2 b) { return __builtin_shufflevector(a, b, 0, 3); };
     return {.row_x = lower(diagonal, product - wz),
             .row_y = ends(product + wz, diagonal),
             .row_z = ends(minus, plus),

@@ -5,7 +5,7 @@
 #include <abut/broad_phase/bvh/split.hpp>
 #include <abut/broad_phase/bvh/surface_area.hpp>
 #include <abut/math/detail/radix_sort.hpp>
-#include <abut/math/simd/float4-inl.h>
+#include <abut/math/simd/lanes-inl.h>
 #include <abut/shape/mesh/build.hpp>
 #include <abut/shape/mesh/tree.hpp>
 
@@ -30,19 +30,19 @@ inline constexpr std::uint32_t max_small_set = 16;
 class GrowingBox {
 public:
     void add(const BvhItem& item) {
-        low_ = float4::min(low_, float4::load(item.min));
-        high_ = float4::max(high_, float4::load(item.max));
+        low_ = lanes::lesser(low_, lanes::at(item.min));
+        high_ = lanes::greater(high_, lanes::at(item.max));
     }
     float area() const {
-        const float4::Floats extent = high_ - low_;
-        const float4::Floats sides = extent * __builtin_shufflevector(extent, extent, 1, 2, 0, 3);
+        const lanes::Floats4 extent = high_ - low_;
+        const lanes::Floats4 sides = extent * lanes::shuffled<1, 2, 0, 3>(extent, extent);
         return sides[0] + sides[1] + sides[2];
     }
     Aabb3 box() const { return {{low_[0], low_[1], low_[2]}, {high_[0], high_[1], high_[2]}}; }
 
 private:
-    float4::Floats low_ = float4::broadcast(std::numeric_limits<float>::infinity());
-    float4::Floats high_ = float4::broadcast(-std::numeric_limits<float>::infinity());
+    lanes::Floats4 low_ = lanes::Floats4(std::numeric_limits<float>::infinity());
+    lanes::Floats4 high_ = lanes::Floats4(-std::numeric_limits<float>::infinity());
 };
 
 /// The number of set bits, by arithmetic. std::popcount is a function call on targets without the instruction.
@@ -89,8 +89,8 @@ void sort(const std::array<std::uint64_t, max_small_set>& keys, std::uint32_t co
 float extent_of(const MeshLeaf& leaf) {
     float result = 0;
     for (const auto& row : leaf.corner) {
-        const float4::Floats a = float4::load(row), b = float4::load(row + 4);
-        result += (float4::max_lane(float4::max(a, b)) - float4::min_lane(float4::min(a, b))) * (1 + 1e-6f);
+        const lanes::Floats4 a = lanes::at(row), b = lanes::at(row + 4);
+        result += (lanes::greatest_lane(lanes::greater(a, b)) - lanes::least_lane(lanes::lesser(a, b))) * (1 + 1e-6f);
     }
     // Products that underflow aren't bounded by their factors.
     return result > 1e-9f && result < 1e12f ? result : std::numeric_limits<float>::infinity();

@@ -8,7 +8,7 @@
 #define ABUT_MESH_RAY_TESTS
 #endif
 
-#include <abut/math/simd/float4-inl.h>
+#include <abut/math/simd/lanes-inl.h>
 #include <abut/shape/mesh/rays.hpp>
 #include <abut/shape/mesh/triangle_simd-inl.h>
 
@@ -38,17 +38,15 @@ constexpr float time_margin = 1 + 1e-5f, time_tolerance = 2.2e-5f;
 class RayBoxTest {
 public:
     /// The fourth lanes of both vectors are unspecified.
-    HWY_INLINE RayBoxTest(float4::Floats origin, float4::Floats direction, float origin_error) {
-        constexpr std::int32_t sign_bit = std::numeric_limits<std::int32_t>::min();
-        const float4::Mask sign = std::bit_cast<float4::Mask>(direction) & sign_bit;
+    HWY_INLINE RayBoxTest(lanes::Floats4 origin, lanes::Floats4 direction, float origin_error) {
         // A direction component near 0 is replaced: no product overflows, and every finite time is far enough.
-        const float4::Floats size = float4::max(float4::magnitude(direction), float4::broadcast(1e-20f));
-        const float4::Floats inverse = 1 / std::bit_cast<float4::Floats>(std::bit_cast<float4::Mask>(size) | sign);
-        const float4::Floats time = origin * inverse;
+        const lanes::Floats4 size = lanes::greater(lanes::magnitude(direction), lanes::Floats4(1e-20f));
+        const lanes::Floats4 inverse = 1 / lanes::flipped_by(size, direction);
+        const lanes::Floats4 time = origin * inverse;
         // The origin and its products have three roundings, of 2^-24 each.
-        const float4::Floats error = (float4::magnitude(origin) * 0x1p-22f + origin_error) * float4::magnitude(inverse);
-        const float4::Floats near = time + error, far = (time - error) * tolerance, far_inverse = inverse * tolerance;
-        const std::size_t signs = float4::bits(sign);
+        const lanes::Floats4 error = (lanes::magnitude(origin) * 0x1p-22f + origin_error) * lanes::magnitude(inverse);
+        const lanes::Floats4 near = time + error, far = (time - error) * tolerance, far_inverse = inverse * tolerance;
+        const std::size_t signs = lanes::signs(direction);
         for (std::size_t i = 0; i < 3; ++i) {
             near_factor_[i] = hn::Set(bvh_tag, inverse[i]);
             far_factor_[i] = hn::Set(bvh_tag, far_inverse[i]);
@@ -97,14 +95,14 @@ struct LeafHits {
 class RayTriangleTest {
 public:
     /// The fourth lanes of both vectors are unspecified.
-    HWY_INLINE RayTriangleTest(float4::Floats origin, float4::Floats direction, const LocalRay& ray)
+    HWY_INLINE RayTriangleTest(lanes::Floats4 origin, lanes::Floats4 direction, const LocalRay& ray)
         : origin_error_(2 * static_cast<float>(ray.origin_error)) {
         HWY_ALIGN float from[4], along[4];
         std::memcpy(from, &origin, sizeof(from));
         std::memcpy(along, &direction, sizeof(along));
         // The dominant axis of the direction, by arithmetic since a branch is unpredictable, and the other two.
         static constexpr std::uint8_t others[3][2] = {{1, 2}, {2, 0}, {0, 1}};
-        const float4::Floats size = float4::magnitude(direction);
+        const lanes::Floats4 size = lanes::magnitude(direction);
         const float x = size[0], y = size[1], z = size[2];
         const auto is_y = static_cast<std::size_t>(y > x), is_z = static_cast<std::size_t>(z > std::max(x, y));
         const std::size_t dominant = is_y + (2 - is_y) * is_z;

@@ -9,6 +9,7 @@
 #endif
 
 #include <abut/convex/ray/triangle.hpp>
+#include <abut/math/simd/compiler-inl.h>
 #include <abut/shape/mesh/ray_tests_simd-inl.h>
 #include <abut/shape/mesh/traversal_stack_simd-inl.h>
 
@@ -27,7 +28,7 @@ HWY_INLINE bool traverse(const MeshTree& tree, const LocalRay& local, Search& se
     const double reach = std::min(static_cast<double>(ray.length), 2 * beyond);
     if (!(reach >= 0)) return true;
     // The fourth lanes are the next members of the ray.
-    const float4::Floats origin = float4::load(&ray.origin.x), direction = float4::load(&ray.direction.x);
+    const lanes::Floats4 origin = lanes::at(&ray.origin.x), direction = lanes::at(&ray.direction.x);
     const RayBoxTest hits_boxes(origin, direction, static_cast<float>(local.origin_error));
     const RayTriangleTest hits_triangles(origin, direction, local);
     const TreeAddresses addresses(tree);
@@ -41,7 +42,7 @@ HWY_INLINE bool traverse(const MeshTree& tree, const LocalRay& local, Search& se
             ref = stack.pop(addresses, max_time);
         } else {
             const MeshNode& node = addresses.node(ref);
-            __builtin_prefetch(node.child);  // it is on another cache line and is needed after the boxes
+            prefetch(node.child);  // it is on another cache line and is needed after the boxes
             const std::uint32_t bits = hits_boxes(node, max_time, times);
             ref = stack.descend(addresses, node, bits, times, max_time);
         }
@@ -105,7 +106,7 @@ public:
     HWY_INLINE bool operator()(const MeshLeaf& leaf, const RayTriangleTest& hits_triangles, float& max_time) {
         std::uint32_t bits = hits_triangles.possible(leaf);
         // The triangle's index is needed after a hit.
-        if (bits != 0) __builtin_prefetch(&tree_.order[leaf.first]);
+        if (bits != 0) prefetch(&tree_.order[leaf.first]);
         while (bits != 0) {
             const std::uint32_t lane = next_lane(bits);
             const std::uint32_t& index = tree_.order[leaf.first + lane];

@@ -7,6 +7,7 @@
 #define ABUT_MESH_TRAVERSAL_STACK
 #endif
 
+#include <abut/math/simd/compiler-inl.h>
 #include <abut/shape/mesh/triangle_simd-inl.h>
 
 #include <bit>
@@ -33,7 +34,7 @@ public:
         const Array& array = arrays_[ref / bvh_leaf_bit];
         const std::uintptr_t begin = array.begin + array.stride * (ref & ~bvh_leaf_bit);
         for (std::uintptr_t line = 0; line < sizeof(MeshNode); line += 64)
-            __builtin_prefetch(reinterpret_cast<const void*>(begin + line));
+            prefetch(reinterpret_cast<const void*>(begin + line));
     }
 
 private:

@@ -61,6 +61,10 @@ int side_of(const SolidTree<D>& tree, const SolidPlane<D>& plane, const Vec<D>& 
 
 template <int D>
 SolidPlane<D> plane_of_face(const SolidTree<D>& tree, std::uint32_t face);
+template <>
+SolidPlane<2> plane_of_face(const SolidTree<2>& tree, std::uint32_t face);
+template <>
+SolidPlane<3> plane_of_face(const SolidTree<3>& tree, std::uint32_t face);
 template <int D>
 SolidPlane<D> plane_of(const HalfSpace<D>& side);
 template <int D>

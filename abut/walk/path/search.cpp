@@ -1,4 +1,5 @@
 #include <abut/math/detail/no_index.hpp>
+#include <abut/math/simd/compiler-inl.h>
 #include <abut/walk/path/search.hpp>
 #include <abut/walk/path/string_pulling.hpp>
 
@@ -264,8 +265,8 @@ private:
             visited.node = nodes_.count();
             nodes_.add();
         }
-        __builtin_prefetch(&walk_[link.triangle()]);
-        __builtin_prefetch(reinterpret_cast<const char*>(&walk_[link.triangle()]) + 64);
+        prefetch(&walk_[link.triangle()]);
+        prefetch(reinterpret_cast<const char*>(&walk_[link.triangle()]) + 64);
 
         Node& next = nodes_[visited.node];
         next.left = left;

@@ -3,7 +3,7 @@
 // The neighbours of a world's items, which together form the surfaces that an item touches. For .cpp files.
 
 #include <abut/math/aabb.hpp>
-#include <abut/math/simd/float4-inl.h>
+#include <abut/math/simd/lanes-inl.h>
 
 #include <algorithm>
 #include <array>
@@ -30,17 +30,17 @@ public:
         explicit Query(const Aabb<D>& box) {
             const auto at = [&](std::size_t i) { return side(box.max, box.min, i); };
             for (std::size_t i = 0; i < rows_.size(); ++i)
-                rows_[i] = float4::Floats{at(2 * i), at(2 * i + 1), at(2 * i + 2), at(2 * i + 3)};
+                rows_[i] = lanes::Floats4{at(2 * i), at(2 * i + 1), at(2 * i + 2), at(2 * i + 3)};
         }
         bool overlaps(const Neighbour& neighbour) const {
-            float4::Mask overlap{-1, -1, -1, -1};
+            std::uint32_t overlap = 0xF;
             for (std::size_t i = 0; i < rows_.size(); ++i)
-                overlap &= float4::load(neighbour.sides_.data() + 2 * i) <= rows_[i];
-            return float4::bits(overlap) == 0xF;
+                overlap &= lanes::bits(lanes::at(neighbour.sides_.data() + 2 * i) <= rows_[i]);
+            return overlap == 0xF;
         }
 
     private:
-        std::array<float4::Floats, D - 1> rows_;  // sides 0 to 3, and 2 to 5
+        std::array<lanes::Floats4, D - 1> rows_;  // sides 0 to 3, and 2 to 5
     };
 
     std::uint32_t slot;

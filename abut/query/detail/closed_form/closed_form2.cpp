@@ -1,4 +1,5 @@
 #include <abut/convex/pairs/pair2.hpp>
+#include <abut/math/simd/compiler-inl.h>
 #include <abut/query/detail/closed_form/closed_form.hpp>
 #include <abut/query/detail/closed_form/placed_polygon2.hpp>
 #include <abut/query/detail/part_pairs.hpp>
@@ -45,7 +46,7 @@ struct CircleAndShape {
         const ShapeRef<2>& circle = of_circle(a, b);
         const Double2 center = placed_center(circle);
         const double radius = static_cast<double>(circle.as<Circle>().radius);
-        const auto query = [&](const auto& core, const ScaledPoint& local) __attribute__((always_inline)) {
+        const auto query = [&](const auto& core, const ScaledPoint& local) ABUT_INLINE_LAMBDA {
             const RoundPoint point{center, radius, local};
             PointFeatures2 found;
             const PairAnswer answer = closest_to_point(core, point, reach, found);
@@ -62,7 +63,7 @@ template <class Query, class Otherwise>
 [[gnu::always_inline]] inline auto with_circle(const ShapeRef<2>& a, const ShapeRef<2>& b, const Query& query,
                                                const Otherwise& otherwise) {
     using enum ShapeKind;
-    const auto with_kind = [&]<std::uint32_t of>(ShapeKind kind) __attribute__((always_inline)) {
+    const auto with_kind = [&]<std::uint32_t of>(ShapeKind kind) ABUT_INLINE_LAMBDA {
         switch (kind) {
             case polytope:
                 return query.template operator()<of, polytope>();

@@ -1,6 +1,7 @@
 // Ray casts against a mesh without a pose, from the ray to the hit in one function. Compiled for each SIMD target by
 // Highway, which selects one at run time.
 
+#include <abut/math/simd/compiler-inl.h>
 #include <abut/math/simd/library_entry.hpp>
 #include <abut/query/detail/raycast/by_advance.hpp>
 #include <abut/query/detail/valid_query.hpp>
@@ -48,9 +49,8 @@ bool cast_at_mesh(const Ray<3>& ray, const MeshTree& tree, const QueryOptions<3>
     const LocalRay local{with_unit_direction(ray, storage), 0, facing_sign(options)};
     const DRay<3> beam = to_dray(ray);
     MeshHit first;
-    const auto find = [&](const MeshRay& mesh_ray, const auto& test) __attribute__((always_inline)) {
-        return find_first(tree, mesh_ray, test, first);
-    };
+    const auto find = [&](const MeshRay& mesh_ray, const auto& test)
+                          ABUT_INLINE_LAMBDA { return find_first(tree, mesh_ray, test, first); };
     if (!with_exact_test(beam, local, options.trace, find)) return false;
     if (first.triangle == nullptr) return true;
     Hit<3>& hit = result.emplace();
