@@ -34,7 +34,7 @@ public:
         const Array& array = arrays_[ref / bvh_leaf_bit];
         const std::uintptr_t begin = array.begin + array.stride * (ref & ~bvh_leaf_bit);
         for (std::uintptr_t line = 0; line < sizeof(MeshNode); line += 64)
-            prefetch(reinterpret_cast<const void*>(begin + line));
+            detail::prefetch(reinterpret_cast<const void*>(begin + line));
     }
 
 private:
