@@ -14,7 +14,7 @@ else()
 endif()
 
 # i386 has its numbers in SSE registers: those of x87 are wider, and are rounded when the compiler happens to store them.
-if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(i[3-6]86|x86|x86_64|AMD64)$" AND CMAKE_SIZEOF_VOID_P EQUAL 4)
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(i[3-6]86|x86|x86_64|AMD64)$" AND CMAKE_SIZEOF_VOID_P EQUAL 4 AND NOT EMSCRIPTEN)
     list(APPEND ABUT_SAME_BITS $<$<COMPILE_LANG_AND_ID:CXX,GNU,Clang>:-msse2;-mfpmath=sse>)
 endif()
 
@@ -105,6 +105,21 @@ function(abut_library target)
         set(scope INTERFACE)
         add_library(${target} INTERFACE)
     endif()
+    # NEON is part of each AArch64 processor. Without the header that Highway asks for others by, it takes the flags as they are;
+    # else it compiles for "+crypto", and g++ then rejects classes with vectors and an implicit constructor. Its vectors for
+    # WebAssembly have no doubles before version 1.1; clang makes vectors of the emulated ones.
+    set(highway)
+    if(EMSCRIPTEN OR CMAKE_SYSTEM_PROCESSOR MATCHES "^wasm")
+        set(highway HWY_BROKEN_TARGETS=HWY_WASM|HWY_WASM_EMU256)
+    elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "^(aarch64|arm)")
+        set(highway TOOLCHAIN_MISS_SYS_AUXV_H)
+    endif()
+    foreach(source IN LISTS sources)
+        file(STRINGS ${source} per_target REGEX "foreach_target\\.h" LIMIT_COUNT 1)
+        if(per_target AND highway)
+            set_source_files_properties(${source} PROPERTIES COMPILE_DEFINITIONS "${highway}")
+        endif()
+    endforeach()
     add_library(abut::${arg_EXPORT_NAME} ALIAS ${target})
     set_target_properties(${target} PROPERTIES EXPORT_NAME ${arg_EXPORT_NAME})
     target_link_libraries(${target} ${scope} ${arg_LINK})

@@ -43,7 +43,7 @@ public:
 private:
     const Filter& filter_;
     std::function<bool(Id)> note_;
-    std::mutex mutex_;
+    detail::Mutex mutex_;
     std::vector<Id> refused_;
 };
 

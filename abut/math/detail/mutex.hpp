@@ -18,7 +18,7 @@ using Mutex = std::mutex;
 using Lock = std::lock_guard<Mutex>;
 #else
 struct Mutex {};
-struct [[maybe_unused]] Lock {
+struct Lock {
     explicit Lock(Mutex&) {}
 };
 #endif

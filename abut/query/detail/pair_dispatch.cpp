@@ -90,10 +90,6 @@ void add_points(const Convex<D>& a, const Convex<D>& b, double margin, const Sea
     contact.manifold = manifold(a, b, contact.distance, margin, D == 3 ? nullptr : options.trace);
 }
 
-// Defined in pair_dispatch3.cpp.
-template <>
-bool part_distance_within(const Convex<3>&, const Convex<3>&, double, double, const SearchOptions<3>&, PartContact<3>&);
-
 template <int D>
 bool part_contact(const Convex<D>& a, const Convex<D>& b, double reach, double margin, const SearchOptions<D>& options,
                   PartContact<D>& contact) {

@@ -48,4 +48,22 @@ template <int D>
 bool part_contact(const Convex<D>& a, const Convex<D>& b, double reach, double margin, const SearchOptions<D>& options,
                   PartContact<D>& contact);
 
+// Each dimension has its own.
+template <>
+bool part_overlaps(const Convex<2>&, const Convex<2>&, const SearchOptions<2>&);
+template <>
+SignedDistance<2> part_distance(const Convex<2>&, const Convex<2>&, const SearchOptions<2>&);
+template <>
+bool part_distance_up_to(const Convex<2>&, const Convex<2>&, double, SignedDistance<2>&);
+template <>
+bool part_distance_within(const Convex<2>&, const Convex<2>&, double, double, const SearchOptions<2>&, PartContact<2>&);
+template <>
+bool part_overlaps(const Convex<3>&, const Convex<3>&, const SearchOptions<3>&);
+template <>
+SignedDistance<3> part_distance(const Convex<3>&, const Convex<3>&, const SearchOptions<3>&);
+template <>
+bool part_distance_up_to(const Convex<3>&, const Convex<3>&, double, SignedDistance<3>&);
+template <>
+bool part_distance_within(const Convex<3>&, const Convex<3>&, double, double, const SearchOptions<3>&, PartContact<3>&);
+
 }  // namespace abut::detail
