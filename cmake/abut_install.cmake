@@ -3,7 +3,7 @@
 include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/abut)
-set(components core bake draw)
+set(components core bake draw c)
 if(ABUT_IO)
     list(APPEND components io)
 endif()
@@ -16,12 +16,15 @@ add_custom_target(abut_product)
 
 foreach(component IN LISTS components)
     add_dependencies(abut_product abut_${component})
-    install(TARGETS abut_${component} EXPORT abut_${component} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+    install(TARGETS abut_${component} EXPORT abut_${component}
+        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+        LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
+        RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
     install(EXPORT abut_${component} NAMESPACE abut:: DESTINATION ${package_dir})
 endforeach()
 
 # Private headers are installed only where a public one includes them.
-set(fronts abut/abut.hpp abut/bake.hpp abut/draw.hpp)
+set(fronts abut/abut.hpp abut/bake.hpp abut/draw.hpp abut/c/abut.h)
 if(ABUT_IO)
     list(APPEND fronts abut/io.hpp)
 endif()

@@ -88,9 +88,12 @@ endfunction()
 
 # A static library of the .cpp files in the given folders of abut/, known as abut::NAME; of headers alone where there are none.
 #   abut_library(abut_bake EXPORT_NAME bake FOLDERS bake LINK abut_core)  ->  abut::bake
-# LINK is what users of the library need as well.
+# LINK is what users of the library need as well, unless the TYPE is SHARED: such a library holds it.
 function(abut_library target)
-    cmake_parse_arguments(PARSE_ARGV 1 arg "" "EXPORT_NAME" "FOLDERS;LINK")
+    cmake_parse_arguments(PARSE_ARGV 1 arg "" "EXPORT_NAME;TYPE" "FOLDERS;LINK")
+    if(NOT arg_TYPE)
+        set(arg_TYPE STATIC)
+    endif()
     set(sources)
     foreach(folder IN LISTS arg_FOLDERS)
         file(GLOB_RECURSE found CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/abut/${folder}/*.cpp)
@@ -98,7 +101,11 @@ function(abut_library target)
     endforeach()
     if(sources)
         set(scope PUBLIC)
-        add_library(${target} STATIC ${sources})
+        add_library(${target} ${arg_TYPE} ${sources})
+        # A shared library can hold it, such as that of the C API or a game's plug-in. With hidden symbols, calls within the
+        # library are as direct as without.
+        set_target_properties(${target} PROPERTIES
+            POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
         abut_strict(${target})
         abut_unity(${target})
     else()
@@ -122,7 +129,11 @@ function(abut_library target)
     endforeach()
     add_library(abut::${arg_EXPORT_NAME} ALIAS ${target})
     set_target_properties(${target} PROPERTIES EXPORT_NAME ${arg_EXPORT_NAME})
-    target_link_libraries(${target} ${scope} ${arg_LINK})
+    if(arg_TYPE STREQUAL "SHARED")
+        target_link_libraries(${target} PRIVATE ${arg_LINK})
+    else()
+        target_link_libraries(${target} ${scope} ${arg_LINK})
+    endif()
     target_compile_features(${target} ${scope} cxx_std_20)
     target_compile_options(${target} ${scope} ${ABUT_SAME_BITS})
     if(ABUT_ASSERTS)

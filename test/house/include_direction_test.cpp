@@ -1,6 +1,6 @@
 // Includes have one direction: math <- {broad_phase, convex} <- shape <- query <- {motion, field, walk, world} <- bake
-// <- {draw, io, recast}. Folders in one pair of braces don't include one another, but motion may use world. The library
-// includes no tests, tools or scenes. Public headers include only the standard library, glm and abut.
+// <- {draw, io, c, recast}. Folders in one pair of braces don't include one another, but motion may use world. The
+// library includes no tests, tools or scenes. Public headers include only the standard library, glm and abut.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -18,10 +18,11 @@ namespace fs = std::filesystem;
 
 // The layer of each folder, and of the headers <abut/abut.hpp>, ... that include whole folders. Each may include its
 // own folder and lower layers.
-const std::map<std::string, int> kRank{
-    {"math", 0},  {"broad_phase", 1}, {"convex", 1},   {"shape", 2},    {"query", 3},  {"motion", 4},
-    {"field", 4}, {"walk", 4},        {"world", 4},    {"abut.hpp", 5}, {"bake", 6},   {"bake.hpp", 7},
-    {"draw", 8},  {"io", 8},          {"draw.hpp", 9}, {"io.hpp", 9},   {"recast", 8}, {"recast.hpp", 9}};
+const std::map<std::string, int> kRank{{"math", 0},   {"broad_phase", 1}, {"convex", 1},   {"shape", 2},
+                                       {"query", 3},  {"motion", 4},      {"field", 4},    {"walk", 4},
+                                       {"world", 4},  {"abut.hpp", 5},    {"bake", 6},     {"bake.hpp", 7},
+                                       {"draw", 8},   {"io", 8},          {"draw.hpp", 9}, {"io.hpp", 9},
+                                       {"recast", 8}, {"recast.hpp", 9},  {"c", 8}};
 
 std::vector<std::string> split(const fs::path& path) {
     std::vector<std::string> parts;
@@ -74,9 +75,10 @@ std::optional<std::string> wrong(const fs::path& file, std::string_view line) {
     if (root == "abut" && parts.size() > 1) return wrong_own(file, target);
     if (quoted) return "quoted, and outside abut/";
 
-    const bool is_header = file.extension() == ".hpp";
+    const bool is_header = file.extension() == ".hpp" || file.extension() == ".h";
     const std::string folder = split(file)[1];
-    const bool is_standard = parts.size() == 1 && target.extension().empty();
+    const bool is_c = file.extension() == ".h" && target.extension() == ".h";
+    const bool is_standard = parts.size() == 1 && (target.extension().empty() || is_c);
     if (is_standard || root == "glm") return std::nullopt;
     if (is_header) return "a public header includes only the standard library, glm and abut";
     if (folder == "io") return std::nullopt;  // reads files, with whatever reads them
@@ -92,8 +94,9 @@ TEST(IncludeDirection, HoldsInTheWholeLibrary) {
     int includes = 0;
     for (const auto& entry : fs::recursive_directory_iterator(root / "abut")) {
         const auto extension = entry.path().extension();
-        if (extension != ".hpp" && extension != ".cpp") continue;
         const fs::path file = fs::relative(entry.path(), root);
+        const bool is_c = extension == ".h" && split(file)[1] == "c";
+        if (extension != ".hpp" && extension != ".cpp" && !is_c) continue;
         std::ifstream in(entry.path());
         ASSERT_TRUE(in) << file;
         std::string line;
@@ -144,6 +147,9 @@ TEST(IncludeDirection, FindsReversedIncludes) {
         {"abut/recast/bake_walk_mesh.hpp", "#include <recastnavigation/Recast.h>"},
         {"abut/recast/bake_walk_mesh.cpp", "#include <assimp/scene.h>"},
         {"abut/recast/bake_walk_mesh.cpp", "#include <abut/io/scene.hpp>"},
+        {"abut/bake/field.cpp", "#include <abut/c/abut.h>"},
+        {"abut/c/field.cpp", "#include <abut/io/scene.hpp>"},
+        {"abut/c/field.cpp", "#include <stdio.h>"},
     };
     for (const auto& [file, line] : bad) EXPECT_TRUE(wrong(file, line)) << file << ": " << line;
 }
@@ -170,6 +176,8 @@ TEST(IncludeDirection, AcceptsAllowedIncludes) {
         {"abut/recast/bake_walk_mesh.cpp", "#include <recastnavigation/Recast.h>"},
         {"abut/recast/bake_walk_mesh.hpp", "#include <abut/walk/walk_mesh.hpp>"},
         {"abut/recast.hpp", "#include <abut/recast/bake_walk_mesh.hpp>"},
+        {"abut/c/types.h", "#include <stdint.h>"},
+        {"abut/c/field.cpp", "#include <abut/bake.hpp>"},
         {"abut/shape/box.hpp", "// like #include <abut/world/world.hpp>, but"},
     };
     for (const auto& [file, line] : good) EXPECT_FALSE(wrong(file, line)) << file << ": " << line;
