@@ -35,6 +35,7 @@ install(CODE "set(source \"${PROJECT_SOURCE_DIR}\")
     set(fronts \"${fronts}\")
     set(destination \"\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_INCLUDEDIR}\")")
 install(SCRIPT ${CMAKE_CURRENT_LIST_DIR}/install_headers.cmake)
+install(FILES ${PROJECT_SOURCE_DIR}/abut/c/abut_api.json DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/abut/c)
 install(FILES ${PROJECT_SOURCE_DIR}/abut/field/abut_field.glsl DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/abut/field)
 
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/abutConfig.cmake.in ${PROJECT_BINARY_DIR}/abutConfig.cmake

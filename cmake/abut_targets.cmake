@@ -104,8 +104,9 @@ function(abut_library target)
         add_library(${target} ${arg_TYPE} ${sources})
         # A shared library can hold it, such as that of the C API or a game's plug-in. With hidden symbols, calls within the
         # library are as direct as without.
+        get_property(has_shared_libraries GLOBAL PROPERTY TARGET_SUPPORTS_SHARED_LIBS)
         set_target_properties(${target} PROPERTIES
-            POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+            POSITION_INDEPENDENT_CODE ${has_shared_libraries} CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
         abut_strict(${target})
         abut_unity(${target})
     else()

@@ -14,13 +14,13 @@ typedef struct abut_field3 abut_field3;
 
 /// How a field is baked.
 typedef struct abut_field_options {
-    float cell;               ///< the side of a cell; 0: a 64th of the longest side of the bounding box; by default 0
-    float padding;            ///< from the bounding box to the border of the volume, in cells; by default 3
-    float band;               ///< half the width of the band that a sparse field stores, in cells; by default 3
-    uint32_t dense;           ///< stores all samples, and not only those near the surface; by default 0
-    uint32_t gradients;       ///< edges stay sharp, for more memory and time; by default 0
-    uint32_t quantised;       ///< stores samples in 16 bits; by default 0
-    uint32_t closest_points;  ///< stores the closest point of each sample as well; by default 0
+    float cell;                ///< the side of a cell; 0: a 64th of the longest side of the bounding box; by default 0
+    float padding;             ///< from the bounding box to the border of the volume, in cells; by default 3
+    float band;                ///< half the width of the band that a sparse field stores, in cells; by default 3
+    abut_flag dense;           ///< stores all samples, and not only those near the surface; by default 0
+    abut_flag gradients;       ///< edges stay sharp, for more memory and time; by default 0
+    abut_flag quantised;       ///< stores samples in 16 bits; by default 0
+    abut_flag closest_points;  ///< stores the closest point of each sample as well; by default 0
 } abut_field_options;
 
 /// A signed distance and the direction of its steepest increase, a unit vector.

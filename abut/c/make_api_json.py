@@ -1,4 +1,4 @@
-"""Describes the C API as JSON, for programs that generate bindings: enums, handles, callbacks, structs and functions.
+"""Describes the C API as JSON, for programs that generate bindings: enums, numbers, handles, callbacks, structs and functions.
 
     make_api_json.py            writes abut_api.json beside abut.h
     make_api_json.py --check    exits with 1 if that file is not up to date
@@ -62,7 +62,7 @@ def members(body):
 
 class Api:
     def __init__(self):
-        self.result = {key: [] for key in ("enums", "handles", "callbacks", "structs", "functions")}
+        self.result = {key: [] for key in ("enums", "numbers", "handles", "callbacks", "structs", "functions")}
         self.docs = argument_docs()
 
     def names(self, key):
@@ -150,6 +150,8 @@ class Api:
                         "returns": match[2] + match[3],
                         "arguments": self.arguments(match[5]),
                     })
+            elif match := re.match(r"typedef (\w+) (\w+);$", code):
+                self.result["numbers"].append({"name": match[2], "type": match[1], "doc": doc})
             elif not code.startswith("ABUT_C_"):
                 fail(f"can't read `{code}` of {header}")
 

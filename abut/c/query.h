@@ -25,8 +25,8 @@ typedef struct abut_feature {
 
 /// The options of a question.
 typedef struct abut_query_options {
-    float margin;         ///< contacts: surfaces up to this far apart count too; by default 0
-    uint32_t back_faces;  ///< rays: whether the back faces of a mesh count; by default 1
+    float margin;          ///< contacts: surfaces up to this far apart count too; by default 0
+    abut_flag back_faces;  ///< rays: whether the back faces of a mesh count; by default 1
 } abut_query_options;
 
 /// Writes the defaults.
@@ -88,24 +88,24 @@ typedef struct abut_contact3 {
 
 /// The first contact that a motion or ray gains.
 typedef struct abut_hit2 {
-    uint32_t found;  ///< 1, or 0 if nothing is hit: then all else is 0
-    float fraction;  ///< of the motion, in [0, 1]; 0 for a ray of infinite length
-    float distance;  ///< along the motion
+    abut_flag found;  ///< 1, or 0 if nothing is hit: then all else is 0
+    float fraction;   ///< of the motion, in [0, 1]; 0 for a ray of infinite length
+    float distance;   ///< along the motion
     abut_vec2 point;
-    abut_vec2 normal;         ///< unit vector, facing the mover or the ray's origin
-    uint32_t started_inside;  ///< 1 if the start is deeper inside than the tolerance
-    abut_feature feature;     ///< of the shape that is hit
+    abut_vec2 normal;          ///< unit vector, facing the mover or the ray's origin
+    abut_flag started_inside;  ///< 1 if the start is deeper inside than the tolerance
+    abut_feature feature;      ///< of the shape that is hit
 } abut_hit2;
 
 /// The first contact that a motion or ray gains.
 typedef struct abut_hit3 {
-    uint32_t found;  ///< 1, or 0 if nothing is hit: then all else is 0
-    float fraction;  ///< of the motion, in [0, 1]; 0 for a ray of infinite length
-    float distance;  ///< along the motion
+    abut_flag found;  ///< 1, or 0 if nothing is hit: then all else is 0
+    float fraction;   ///< of the motion, in [0, 1]; 0 for a ray of infinite length
+    float distance;   ///< along the motion
     abut_vec3 point;
-    abut_vec3 normal;         ///< unit vector, facing the mover or the ray's origin
-    uint32_t started_inside;  ///< 1 if the start is deeper inside than the tolerance
-    abut_feature feature;     ///< of the shape that is hit
+    abut_vec3 normal;          ///< unit vector, facing the mover or the ray's origin
+    abut_flag started_inside;  ///< 1 if the start is deeper inside than the tolerance
+    abut_feature feature;      ///< of the shape that is hit
 } abut_hit3;
 
 /// The errors found in an answer of `closest`, in the unit of the shapes; not negative.
@@ -117,7 +117,7 @@ typedef struct abut_certificate2 {
     double across;      ///< how far on_b is from on_a + distance * normal
     double off_common;  ///< how far `common` is outside of either shape
     abut_vec2 common;   ///< a point of both overlapping shapes
-    uint32_t holds;     ///< 1 if each error is within the margin and the rounding of positions
+    abut_flag holds;    ///< 1 if each error is within the margin and the rounding of positions
 } abut_certificate2;
 
 /// The errors found in an answer of `closest`, in the unit of the shapes; not negative.
@@ -129,7 +129,7 @@ typedef struct abut_certificate3 {
     double across;      ///< how far on_b is from on_a + distance * normal
     double off_common;  ///< how far `common` is outside of either shape
     abut_vec3 common;   ///< a point of both overlapping shapes
-    uint32_t holds;     ///< 1 if each error is within the margin and the rounding of positions
+    abut_flag holds;    ///< 1 if each error is within the margin and the rounding of positions
 } abut_certificate3;
 
 /// Whether two shapes overlap or touch.

@@ -73,6 +73,9 @@ ABUT_API uint32_t abut_last_error_index(void);
 /// The version of the library, such as "0.1.0".
 ABUT_API const char* abut_version(void);
 
+/// 0 or 1, as a member of a struct.
+typedef uint32_t abut_flag;
+
 /// A point or vector of the plane.
 typedef struct abut_vec2 {
     float x;

@@ -38,7 +38,7 @@ typedef struct abut_walked {
     uint32_t met;         ///< an abut_walk_met
     abut_walk_side side;  ///< the first border, if any
     abut_quat turn;       ///< rotates the walker's frame and directions as the walk did
-    uint32_t mirrored;    ///< 1 if the walker now stands on the side opposite to the normal, as on a Moebius strip
+    abut_flag mirrored;   ///< 1 if the walker now stands on the side opposite to the normal, as on a Moebius strip
     uint32_t crossings;   ///< edges crossed
 } abut_walked;
 
@@ -57,17 +57,17 @@ typedef struct abut_walk_mesh_report {
 
 /// The options of a path.
 typedef struct abut_walk_path_options {
-    uint32_t nearest_reachable;  ///< leads to the nearest reachable place if the end is none; by default 0
-    uint32_t area_cost_count;    ///< by default 0
-    const float* area_costs;     ///< the cost per unit of length for each area; further areas cost 1; by default null
+    abut_flag nearest_reachable;  ///< leads to the nearest reachable place if the end is none; by default 0
+    uint32_t area_cost_count;     ///< by default 0
+    const float* area_costs;      ///< the cost per unit of length for each area; further areas cost 1; by default null
 } abut_walk_path_options;
 
 /// A path: its measures. The points are written beside it.
 typedef struct abut_walk_path {
-    uint32_t found;    ///< 1, or 0 if there is no path: then all else is 0
-    uint32_t reached;  ///< 0 if the path ends at the nearest reachable place
-    double length;     ///< along the surface
-    double cost;       ///< the sum of each segment's length times the cost of its area
+    abut_flag found;    ///< 1, or 0 if there is no path: then all else is 0
+    abut_flag reached;  ///< 0 if the path ends at the nearest reachable place
+    double length;      ///< along the surface
+    double cost;        ///< the sum of each segment's length times the cost of its area
 } abut_walk_path;
 
 /// Builds a walk mesh of three point numbers a triangle. `normals`, one for each point, are for `smooth_normal`;

@@ -32,33 +32,33 @@ typedef struct abut_layers {
 
 /// The options of a world.
 typedef struct abut_world_options {
-    uint32_t filter_edges;  ///< whether contacts have the normals of the surface that neighbours form; by default 1
+    abut_flag filter_edges;  ///< whether contacts have the normals of the surface that neighbours form; by default 1
 } abut_world_options;
 
 /// The options of an item.
 typedef struct abut_item_options2 {
-    abut_pose2 pose;      ///< by default the identity
-    uint64_t user;        ///< free for the game's use; by default 0
-    uint64_t layers;      ///< by default 1
-    uint64_t mask;        ///< by default all bits
-    uint32_t fixed;       ///< seldom moves; two fixed items never pair; by default 0
-    uint32_t sensor;      ///< has events and no contacts; queries skip it by default; by default 0
-    uint32_t continuous;  ///< the events include all that it touches between two updates; by default 0
-    int32_t group;        ///< items of one group pair always if it is above 0, and never if it is below 0; by default 0
-    uint32_t enabled;     ///< if 0, it neither pairs nor is found; by default 1
+    abut_pose2 pose;       ///< by default the identity
+    uint64_t user;         ///< free for the game's use; by default 0
+    uint64_t layers;       ///< by default 1
+    uint64_t mask;         ///< by default all bits
+    abut_flag fixed;       ///< seldom moves; two fixed items never pair; by default 0
+    abut_flag sensor;      ///< has events and no contacts; queries skip it by default; by default 0
+    abut_flag continuous;  ///< the events include all that it touches between two updates; by default 0
+    int32_t group;      ///< items of one group pair always if it is above 0, and never if it is below 0; by default 0
+    abut_flag enabled;  ///< if 0, it neither pairs nor is found; by default 1
 } abut_item_options2;
 
 /// The options of an item.
 typedef struct abut_item_options3 {
-    abut_pose3 pose;      ///< by default the identity
-    uint64_t user;        ///< free for the game's use; by default 0
-    uint64_t layers;      ///< by default 1
-    uint64_t mask;        ///< by default all bits
-    uint32_t fixed;       ///< seldom moves; two fixed items never pair; by default 0
-    uint32_t sensor;      ///< has events and no contacts; queries skip it by default; by default 0
-    uint32_t continuous;  ///< the events include all that it touches between two updates; by default 0
-    int32_t group;        ///< items of one group pair always if it is above 0, and never if it is below 0; by default 0
-    uint32_t enabled;     ///< if 0, it neither pairs nor is found; by default 1
+    abut_pose3 pose;       ///< by default the identity
+    uint64_t user;         ///< free for the game's use; by default 0
+    uint64_t layers;       ///< by default 1
+    uint64_t mask;         ///< by default all bits
+    abut_flag fixed;       ///< seldom moves; two fixed items never pair; by default 0
+    abut_flag sensor;      ///< has events and no contacts; queries skip it by default; by default 0
+    abut_flag continuous;  ///< the events include all that it touches between two updates; by default 0
+    int32_t group;      ///< items of one group pair always if it is above 0, and never if it is below 0; by default 0
+    abut_flag enabled;  ///< if 0, it neither pairs nor is found; by default 1
 } abut_item_options3;
 
 /// Whether a query takes an item into account. It must not change the world.
@@ -71,7 +71,7 @@ typedef bool (*abut_accepts_pair)(void* context, abut_id a, abut_id b);
 typedef struct abut_filter {
     uint64_t layers;            ///< by default all bits
     uint64_t mask;              ///< by default all bits
-    uint32_t sensors;           ///< whether the query finds sensors as well; by default 0
+    abut_flag sensors;          ///< whether the query finds sensors as well; by default 0
     abut_id ignore;             ///< an item to skip; by default null
     uint32_t ignore_count;      ///< by default 0
     const abut_id* ignore_ids;  ///< more items to skip: `ignore_count` of them; by default null

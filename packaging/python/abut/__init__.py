@@ -29,17 +29,17 @@ def _make_handles():
             globals()[_python_name(name)] = _handles[name]
 
 
-def _documented(call, function, name):
-    call.__name__, call.__doc__ = name, function.description["doc"]
+def _documented(call, name, doc):
+    call.__name__, call.__doc__ = name, doc
     return call
 
 
 def _method(function, name):
-    return _documented(lambda self, *arguments, **named: function(self, *arguments, **named), function, name)
+    return _documented(lambda self, *arguments, **named: function(self, *arguments, **named), name, function.doc)
 
 
 def _static(function, name):
-    return staticmethod(_documented(lambda *arguments, **named: function(*arguments, **named), function, name))
+    return staticmethod(_documented(lambda *arguments, **named: function(*arguments, **named), name, function.doc))
 
 
 def _constructor(function):
@@ -47,7 +47,7 @@ def _constructor(function):
         made = function(*arguments, **named)
         self._pointer, made._pointer = made._pointer, None
 
-    return _documented(make, function, "__init__")
+    return _documented(make, "__init__", function.doc)
 
 
 def _make_functions():
@@ -58,7 +58,7 @@ def _make_functions():
         owner, name, kind = place
         function = _Function(description)
         if kind == "function":
-            globals()[name] = _documented(lambda *a, _f=function, **named: _f(*a, **named), function, name)
+            globals()[name] = _static(function, name).__func__
             continue
         cls = _handles.get(owner) or _values[owner]
         if kind == "constructor":
@@ -80,8 +80,8 @@ def _shape_of_values(struct, make):
     def shape(*members, **named):
         return make(members[0] if len(members) == 1 and isinstance(members[0], kind) else kind(*members, **named))
 
-    shape.__name__, shape.__doc__ = make.__name__, f"{make.__doc__} Members: {', '.join(n for n, _ in kind._fields_)}."
-    return shape
+    members = ", ".join(name for name, _ in kind._fields_)
+    return _documented(shape, make.__name__, f"{make.__doc__} Members: {members}.")
 
 
 for _struct in _names.SHAPE_STRUCTS:
@@ -99,7 +99,7 @@ def _at_points(cls):
         is_shape = isinstance(other, _Handle)
         return (shapes if is_shape else points)(self, other, *arguments, **named)
 
-    cls.closest = _documented(closest, type("D", (), {"description": {"doc": shapes.__doc__}}), "closest")
+    cls.closest = _documented(closest, "closest", shapes.__doc__)
 
 
 for _cls in (Shape2, Shape3, World2, World3):
@@ -110,8 +110,7 @@ def _of_pairs(name):
     def call(a, b, *arguments, **named):
         return getattr(a, name)(b, *arguments, **named)
 
-    call.__name__, call.__doc__ = name, getattr(Shape3, name).__doc__
-    return call
+    return _documented(call, name, getattr(Shape3, name).__doc__)
 
 
 for _name in _names.OF_PAIRS:
@@ -135,7 +134,7 @@ def _with_events(cls):
     def call(self, pool=None):
         return Events(update(self, pool))
 
-    cls.update = _documented(call, type("D", (), {"description": {"doc": update.__doc__}}), "update")
+    cls.update = _documented(call, "update", update.__doc__)
 
 
 for _cls in (World2, World3):
@@ -155,23 +154,22 @@ def _of_outline(function):
         points, ends = _rings(outline, holes)
         return function(points, ends, **options)
 
-    call.__name__, call.__doc__ = function.__name__, "The same of an outline and its holes, as lists of points."
-    return call
+    return _documented(call, function.__name__, function.__doc__)
 
 
 decompose_outline = _of_outline(decompose_outline)
 Field2.bake_outline = staticmethod(_of_outline(Field2.bake_outline))
 
 
-for _cls in (Shapes2, Shapes3):
-    _cls.__len__ = _cls.size
+def _item(self, index):
     # Iteration ends at an IndexError.
-    def _item(self, index):
-        if not 0 <= index < len(self):
-            raise IndexError(index)
-        return self.get(index)
+    if not 0 <= index < len(self):
+        raise IndexError(index)
+    return self.get(index)
 
-    _cls.__getitem__ = _item
+
+for _cls in (Shapes2, Shapes3):
+    _cls.__len__, _cls.__getitem__ = _cls.size, _item
 
 
 def dtype(kind):

@@ -67,7 +67,7 @@ class Input:
         self.stride = 0
         if isinstance(data, (bytes, bytearray, memoryview)) and kind is ctypes.c_uint8:
             data = bytes(data)
-            self.kept, self.rows = data, len(data)
+            self.owned, self.rows = data, len(data)
             self.pointer = ctypes.cast(ctypes.c_char_p(data), ctypes.c_void_p)
         elif numpy is not None:
             self._from_numpy(data, kind, group)
@@ -106,7 +106,7 @@ class Input:
                 self.stride = data.strides[0]
             elif data.ndim == 2:
                 data = numpy.ascontiguousarray(data)
-        self.kept, self.rows = data, len(data)
+        self.owned, self.rows = data, len(data)
         self.pointer = ctypes.c_void_p(data.ctypes.data)
 
     def _from_sequence(self, data, kind, group):
@@ -116,9 +116,9 @@ class Input:
                 elements.extend(one if hasattr(one, "__iter__") else [one])
             else:
                 elements.append(as_value(kind, one))
-        self.kept = (kind * len(elements))(*elements)
+        self.owned = (kind * len(elements))(*elements)
         self.rows = len(elements) // group
-        self.pointer = ctypes.cast(self.kept, ctypes.c_void_p)
+        self.pointer = ctypes.cast(self.owned, ctypes.c_void_p)
 
 
 def _numbers(value):

@@ -24,8 +24,7 @@ class Function:
     """A function of C. `parameters` are the arguments that Python passes: (name, description, whether it has a default)."""
 
     def __init__(self, description):
-        self.description = description
-        self.name = description["name"]
+        self.name, self.doc = description["name"], description["doc"]
         self.arguments = description["arguments"]
         self.c_function = getattr(library, self.name)
         self.c_function.restype = ctypes.c_int
@@ -66,17 +65,17 @@ class Function:
 
     def __call__(self, *arguments, **named):
         given = self._bind(arguments, named)
-        # Most lists are short; a longer one is asked for again with its full length.
+        # Most lists are short; a longer one is read again with its full length.
         capacity = int(given["capacity"]) if self.takes_k else 64
         while True:
-            kept, outputs, length = self._call(given, capacity)
+            owned, outputs, length = self._call(given, capacity)
             if length is None or self.takes_k or length <= capacity:
                 break
             capacity = length
         result = self._results(outputs, length)
         # The library keeps this callback until the handle is released, and copies of it do too.
         if self.name.endswith("_set_pair_filter"):
-            arguments[0]._callbacks = (*arguments[0]._callbacks, kept)
+            arguments[0]._callbacks = (*arguments[0]._callbacks, owned)
         elif self.name.endswith("_copy"):
             result._callbacks = arguments[0]._callbacks
         return result
@@ -117,16 +116,16 @@ class Function:
         return () if a["array"] else 0
 
     def _call(self, given, capacity):
-        kept, c_arguments, lengths, outputs = [], {}, {}, []
+        owned, c_arguments, lengths, outputs = [], {}, {}, []
         stride_of = None
         for a in self.arguments:
             name = a["name"]
             if name in _STRIDES:
                 c_arguments[name] = stride_of or 0
             elif a["array"] and a["direction"] == "in":
-                c_arguments[name], stride_of = self._input(a, given, lengths, kept)
+                c_arguments[name], stride_of = self._input(a, given, lengths, owned)
             elif a in self.parameters:
-                c_arguments[name] = self._single(a, given, kept)
+                c_arguments[name] = self._single(a, given, owned)
         lengths["capacity"] = capacity
         for name in self.lengths:
             c_arguments[name] = lengths.get(name, 0)
@@ -142,21 +141,21 @@ class Function:
                 output, c_arguments[a["name"]] = self._output(a, lengths)
                 outputs.append((a, output))
         check(self.c_function(*[c_arguments.get(a["name"]) for a in self.arguments]))
-        return kept, outputs, length.value if self.list_length else None
+        return owned, outputs, length.value if self.list_length else None
 
-    def _input(self, a, given, lengths, kept):
+    def _input(self, a, given, lengths, owned):
         data = given.get(a["name"], None if a["optional"] else self._default(a))
         if data is None:
             return None, 0
         if a["pointers"] == 2:
             data = list(data)
             array = (ctypes.c_void_p * len(data))(*[one._handle(a["type"]) for one in data])
-            kept.append((array, data))
+            owned.append((array, data))
             rows, pointer, stride = len(data), ctypes.cast(array, ctypes.c_void_p), 0
         else:
             match = re.fullmatch(r"(?:(\d) \* )?(\w+)", a["array"])
             array = Input(data, a["type"], int(match[1] or 1) if match else 1)
-            kept.append(array)
+            owned.append(array)
             rows, pointer, stride = array.rows, array.pointer, array.stride
         length = a["array"].split(" * ")[-1] if self.lengths else None
         if length in self.lengths and lengths.setdefault(length, rows) != rows:
@@ -169,7 +168,7 @@ class Function:
                 raise ValueError(f"{self.name}: {a['name']} has {rows} elements, where {needed} are needed")
         return pointer, stride
 
-    def _single(self, a, given, kept):
+    def _single(self, a, given, owned):
         value = given.get(a["name"], None if a["optional"] else self._default(a) if self._has_default(a) else None)
         if a["type"] in callbacks:
             value = callbacks[a["type"]]() if value is None else callbacks[a["type"]](callback_of(value))
@@ -178,17 +177,17 @@ class Function:
                 return None
             if not isinstance(value, handles[a["type"]]):
                 raise TypeError(f"{self.name}: {a['name']} is no {handles[a['type']].__name__}")
-            kept.append(value)
+            owned.append(value)
             return value._handle(a["type"])
         elif a["pointers"]:
             if value is None:
                 return None
             value = as_value(values[a["type"]], value)
-            kept.append(value)
+            owned.append(value)
             return ctypes.byref(value)
         elif a["type"] in values:
             value = as_value(values[a["type"]], value)
-        kept.append(value)
+        owned.append(value)
         return value
 
     def _output(self, a, lengths):

@@ -14,6 +14,7 @@ _NUMBERS = {
     "uint64_t": ctypes.c_uint64,
     "size_t": ctypes.c_size_t,
 }
+_NUMBERS.update({number["name"]: _NUMBERS[number["type"]] for number in api["numbers"]})
 # All zeros are no rotation.
 _DEFAULTS = {"abut_turn": (1, 0), "abut_quat": (0, 0, 0, 1)}
 # Lists in structs, and their lengths.
@@ -54,21 +55,21 @@ class Value(ctypes.Structure):
             value = list(value)
             element = kind._type_
             array = (element * len(value))(*[as_value(element, one) for one in value])
-            self._keep(name, array)
+            self._own(name, array)
             setattr(self, _LENGTHS[name], len(value))
             value = ctypes.cast(array, kind)
         elif kind in callbacks.values() and value is not None:
             value = kind(callback_of(value))
-            self._keep(name, value)
+            self._own(name, value)
         elif isinstance(kind, type) and issubclass(kind, Value):
             value = as_value(kind, value)
         elif hasattr(value, "item"):
             value = value.item()  # a number of numpy
         super().__setattr__(name, value)
 
-    def _keep(self, name, value):
+    def _own(self, name, value):
         """Python frees what only a struct of C refers to."""
-        self.__dict__.setdefault("_kept", {})[name] = value
+        self.__dict__.setdefault("_owned", {})[name] = value
 
     def __getitem__(self, index):
         return getattr(self, self._fields_[index][0])
