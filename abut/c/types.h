@@ -10,9 +10,8 @@
 //   placed shape has its own copy, which shares the data.
 // - ABUT_ARRAY(n) marks a pointer to an array of n elements, and ABUT_OPTIONAL one that may be null. An array of n = 0
 //   elements may be null. A stride is the distance of two elements in bytes; 0 means that they are adjacent.
-// - A list of unknown length is written to an array `out` of `capacity` elements. `count` receives the full length,
-// also
-//   if it is above the capacity; only the first `capacity` elements are then written.
+// - A list of unknown length is written to an array `out` of `capacity` elements. `count` receives the full length. If
+//   it is above the capacity, only the first `capacity` elements are written.
 // - Options are passed by pointer; null means the defaults, which `abut_..._default` writes.
 // - Functions that take their handles as const may be called from several threads at once, the others may not.
 

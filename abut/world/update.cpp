@@ -130,7 +130,7 @@ void World<D>::test_near(Executor* executor) {
     if (state.parts.size() < parts) state.parts.resize(parts);
     state.free_memories.clear();
     for (std::uint32_t i = 0; i < state.memories.size(); ++i) {
-        state.memories[i].clear();
+        state.memories[i].clear(positions_.are_used());
         state.free_memories.push_back(i);
     }
     detail::Mutex mutex;

@@ -6,6 +6,7 @@
 #include "support/random_shapes.hpp"
 #include <abut/math/assert.hpp>
 #include <abut/world/history.hpp>
+#include <abut/world/large_world.hpp>
 
 #include <array>
 #include <functional>
@@ -210,6 +211,27 @@ TEST(Misuse, ATickThatIsNotHeldIsTheNearestOne) {
     EXPECT_EQ(trips_of([&] { EXPECT_EQ(past.at(2, 1.5f).pose(id), place(3)); }), once);
     EXPECT_EQ(trips_of([&] { EXPECT_EQ(past.at(2, -1).pose(id), place(2)); }), once);
     EXPECT_EQ(trips_of([&] { EXPECT_EQ(past.at(2, nan).pose(id), place(2)); }), once);
+}
+
+TEST(Misuse, OfALargeWorld) {
+    LargeWorld2 world;
+    const detail::DVec<2> place(1e7, 0), no_place(static_cast<double>(nan), 0);
+    const Id id = world.add(Circle{{0, 0}, 1}, {place}), other = world.add(Circle{{0, 0}, 1}, {place});
+    world.remove(other);
+    EXPECT_EQ(trips_of([&] { world.move(other, {place}); }), once);
+    EXPECT_EQ(trips_of([&] { EXPECT_EQ(world.pose(other), PoseD2{}); }), once);
+    EXPECT_EQ(trips_of([&] { world.in_world(other, {1, 0}); }), once);
+    EXPECT_EQ(trips_of([&] { EXPECT_FALSE(world.raycast({no_place, {1, 0}, 9})); }), once);
+    EXPECT_EQ(trips_of([&] { EXPECT_FALSE(world.sweep(Circle{}, {no_place}, Vec2(1, 0))); }), once);
+    EXPECT_EQ(trips_of([&] { EXPECT_FALSE(world.sweep(Circle{}, {place}, PoseD2{no_place})); }), once);
+    EXPECT_EQ(trips_of([&] { EXPECT_FALSE(world.closest(no_place)); }), once);
+    EXPECT_EQ(trips_of([&] { EXPECT_TRUE(world.overlapping(Circle{}, {no_place}).empty()); }), once);
+    EXPECT_EQ(trips_of([&] { EXPECT_TRUE(world.containing(no_place).empty()); }), once);
+    EXPECT_EQ(world.overlapping(Circle{}, {place}).size(), 1u);
+    EXPECT_EQ(trips_of([&] { world.move(id, {no_place}); }), once);
+    EXPECT_TRUE(world.overlapping(Circle{}, {place}).empty());
+    world.move(id, {place});
+    EXPECT_EQ(world.overlapping(Circle{}, {place}).size(), 1u);
 }
 
 }  // namespace

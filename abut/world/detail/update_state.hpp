@@ -44,9 +44,9 @@ struct PairTestMemory {
     /// The points nearest to the centres of items, for contacts of which an item is A or B.
     std::array<SlotCache<NearestToCenter<D>, 256>, 2> nearest;
 
-    void clear() {
+    void clear(bool with_offsets) {
         views.clear();
-        own_offsets.clear();
+        if (with_offsets) own_offsets.clear();
         for (auto& of_side : nearest) of_side.clear();
     }
     /// Where the parts of the next contact go.
