@@ -80,6 +80,16 @@ bool bounding_balls_apart(const ShapeRef<3>& a, const ShapeRef<3>& b, double rea
     return square > radii * radii * (1 + 1e-12) && std::isfinite(square);
 }
 
+/// Likewise, without a root: 2 (r^2 + s^2) is at least (r + s)^2.
+[[gnu::always_inline]] inline bool bounding_balls_apart(const Box3& a, const Box3& b) {
+    using namespace lanes;
+    const Double3 between = loaded(b.center) - loaded(a.center), half_a = loaded(a.half), half_b = loaded(b.half);
+    const double square = dot(between, between)[0], radii = (dot(half_a, half_a) + dot(half_b, half_b))[0];
+    if (!(square > (2 + 1e-6) * radii)) return false;
+    const glm::quat &p = a.rotation, &q = b.rotation;
+    return std::isfinite(square + static_cast<double>(p.w + p.x + p.y + p.z + (q.w + q.x + q.y + q.z)));
+}
+
 // Answers by views, for pairs without a closed form, and for what one leaves open. Out of line, to keep the closed
 // forms short.
 
@@ -105,6 +115,10 @@ bool bounding_balls_apart(const ShapeRef<3>& a, const ShapeRef<3>& b, double rea
 template <class A, class B>
 bool overlap_of_kinds(const ShapeRef<3>& a, const ShapeRef<3>& b, const QueryOptions<3>& options) {
     if (options.trace == nullptr) {
+        if constexpr (std::is_same_v<A, PlacedBox> && std::is_same_v<B, PlacedBox>)
+            if (options.cache == nullptr && a.pose == nullptr && b.pose == nullptr &&
+                bounding_balls_apart(a.as<Box3>(), b.as<Box3>()))
+                return false;
         const PairAnswer answer = a.pose == nullptr && b.pose == nullptr
                                       ? overlap_of(core_in_place<A>(a), core_in_place<B>(b), options.cache)
                                       : overlap_of(core_of<A>(a), core_of<B>(b), options.cache);
