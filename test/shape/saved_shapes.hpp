@@ -135,7 +135,7 @@ inline Mesh random_shape<Mesh>(oracle::Random& random) {
     }
     const std::uint32_t triangles = 1 + random.below(60);
     for (std::uint32_t i = 0; i < triangles; ++i)
-        soup.triangles.emplace_back(random.below(points), random.below(points), random.below(points));
+        soup.triangles.push_back(glm::uvec3{random.below(points), random.below(points), random.below(points)});
     return soup.mesh();
 }
 
@@ -162,7 +162,7 @@ inline TileMap random_shape<TileMap>(oracle::Random& random) {
 
 template <>
 inline VoxelMap random_shape<VoxelMap>(oracle::Random& random) {
-    const glm::uvec3 count(1 + random.below(6), 1 + random.below(6), 1 + random.below(6));
+    const glm::uvec3 count{1 + random.below(6), 1 + random.below(6), 1 + random.below(6)};
     const std::uint32_t size = count.x * count.y * count.z;
     std::vector<std::uint64_t> bits((size + 63) / 64);
     for (std::uint64_t& word : bits) word = random.bits() & random.bits();
@@ -175,7 +175,8 @@ inline Chain random_shape<Chain>(oracle::Random& random) {
     std::vector<Vec2> points;
     const std::uint32_t count = 3 + random.below(80);
     for (std::uint32_t i = 0; i < count; ++i) points.push_back(to_float(random.in_cube<2>() * 3.0));
-    return *Chain::build(points, random.chance(0.5), {.one_sided = random.chance(0.3)});
+    const bool closed = random.chance(0.5), one_sided = random.chance(0.3);
+    return *Chain::build(points, closed, {.one_sided = one_sided});
 }
 
 template <int D>
@@ -194,8 +195,11 @@ inline SolidBsp2 random_shape<SolidBsp2>(oracle::Random& random) {
     if (random.chance(0.4)) return random_brushes<2>(random);
     Level<2> level;
     const std::uint32_t stars = 1 + random.below(3);
-    for (std::uint32_t i = 0; i < stars; ++i)
-        add_outline(level, star(random, 3 + static_cast<int>(random.below(9)), to_float(random.in_cube<2>()), 0.3, 2));
+    for (std::uint32_t i = 0; i < stars; ++i) {
+        const int corners = 3 + static_cast<int>(random.below(9));
+        const Vec2 center = to_float(random.in_cube<2>());
+        add_outline(level, star(random, corners, center, 0.3, 2));
+    }
     if (random.chance(0.3)) turn_around(level);
     return *SolidBsp2::build(level.points, level.faces);
 }

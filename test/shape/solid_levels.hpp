@@ -2,6 +2,7 @@
 
 // Levels for solid BSP trees, and a reference for containment: exact winding numbers, face by face.
 
+#include "../../scenes/bumpy_ball.hpp"
 #include "../oracle/random.hpp"
 #include "meshes.hpp"
 #include <abut/math/predicates.hpp>
@@ -39,9 +40,8 @@ inline void add_outline(Level<2>& level, const std::vector<Vec2>& outline) {
 inline std::vector<Vec2> star(oracle::Random& random, int count, const Vec2& center, double low, double high) {
     std::vector<Vec2> result;
     for (int i = 0; i < count; ++i) {
-        const double angle = 2 * 3.14159265358979 * (i + 0.8 * random.unit()) / count,
-                     radius = random.uniform(low, high);
-        result.push_back(center + Vec2(DVec<2>(std::cos(angle), std::sin(angle)) * radius));
+        const double quarters = 4 * (i + 0.8 * random.unit()) / count, radius = random.uniform(low, high);
+        result.push_back(center + Vec2(scenes::on_circle(quarters) * radius));
     }
     return result;
 }
