@@ -10,5 +10,4 @@ set(CMAKE_RANLIB llvm-ranlib-22)
 set(CMAKE_CXX_FLAGS_INIT "-msimd128 -fno-exceptions -Wno-deprecated")
 # The stack lies below all data, so that an overflow traps.
 set(CMAKE_EXE_LINKER_FLAGS_INIT "-Wl,--stack-first -Wl,-z,stack-size=1048576")
-set(CMAKE_EXECUTABLE_SUFFIX .wasm)
 set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE NEVER)

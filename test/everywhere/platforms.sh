@@ -44,7 +44,7 @@ everywhere_run() {
     case $with in
         '') "$golden" "$@" ;;
         wine) WINEDEBUG=-all wine "$golden.exe" "$@" | tr -d '\r' ;;
-        node) node --no-warnings test/everywhere/run_wasm.mjs "$golden.wasm" "$@" ;;
+        node) node --no-warnings test/everywhere/run_wasm.mjs "$golden" "$@" ;;
         *) "$with" "$golden" "$@" ;;
     esac
 }
