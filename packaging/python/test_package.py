@@ -1,6 +1,7 @@
 """The package: that it has every function of the C API, what it does with wrong arguments, and who owns what."""
 
 import gc
+import hashlib
 import math
 import unittest
 
@@ -87,6 +88,45 @@ class TestPackage(unittest.TestCase):
         self.assertEqual(len(ball.closest_to_points(points[:0, :3])), 0)
         with self.assertRaisesRegex(ValueError, "3 numbers a row"):
             ball.closest_to_points(points)
+
+    @unittest.skipIf(_arrays.numpy is None, "numpy is missing")
+    def test_same_bits(self):
+        """The answers are those of other machines, bit by bit: npm/test/same_bits.js has the same hash."""
+        numpy = _arrays.numpy
+        seed = 7
+
+        def random():
+            nonlocal seed
+            seed = (seed * 1664525 + 1013904223) & 0xFFFFFFFF
+            return float(numpy.float32(seed / 2**32 * 4 - 2))
+
+        def vector():
+            return random(), random(), random()
+
+        shapes = [abut.Sphere(vector(), 0.5), abut.Box3(vector(), (0.5, 0.75, 0.25), (0.5, 0.5, -0.5, 0.5)),
+                  abut.Capsule3(vector(), vector(), 0.25), abut.Cylinder((0, 0, 0), (0.5, 0.25, 1), 0.5),
+                  abut.Cone((0, 0, 0), (0, 0.5, 1), 0.5),
+                  abut.Polyhedron(numpy.array([random() for _ in range(60)], "f4").reshape(-1, 3))]
+        poses = numpy.array([random() for _ in range(7 * 200)], "f4").reshape(-1, 7)
+        digest = hashlib.sha256()
+
+        def add(*arrays):
+            for array in arrays:
+                digest.update(numpy.ascontiguousarray(array).tobytes())
+
+        for a in shapes:
+            for b in shapes:
+                closest, contact = a.closest_many(b, poses), a.contact_many(b, poses)
+                add(closest["distance"], closest["normal"], closest["on_a"], contact["depth"], contact["normal"])
+        world = abut.World3()
+        for i in range(200):
+            world.add(shapes[i % 6], pose=poses[i])
+        digest.update(f"{len(world.update().began)} {len(world.contacts())}".encode())
+        rays = poses.copy()
+        rays[:, 3:] = 1, 0, 0, 50
+        hit = world.raycast_many(rays)["hit"]
+        add(hit["distance"], hit["point"], hit["normal"])
+        self.assertEqual(digest.hexdigest(), "0ac486b6f80741e5b67d55ad062ca478156ae607c7dfd8d3e0afe80954bc75b1")
 
 
 if __name__ == "__main__":
