@@ -220,7 +220,8 @@ Aabb<D> World<D>::bounds_in_broad_phase(std::uint32_t slot) {
 /// Sets the boxes of all items, about an origin that is near to most of them. No answer depends on it.
 template <int D>
 void World<D>::set_boxes() {
-    if (positions_.are_far()) positions_.move_origin([this](std::uint32_t slot) { return items_[slot].in_use; });
+    const auto is_in_use = [this](std::uint32_t slot) { return slot < items_.size() && items_[slot].in_use; };
+    if (positions_.are_far()) positions_.move_origin(is_in_use);
     for (std::uint32_t slot = 0; slot < items_.size(); ++slot)
         if (items_[slot].in_use) boxes_of(items_[slot]).set(items_[slot].place, bounds_in_broad_phase(slot));
 }

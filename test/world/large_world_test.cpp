@@ -276,6 +276,18 @@ void expect_restored_far_away() {
     EXPECT_TRUE(other == expected);
 }
 
+/// The positions of slots that are gone since are no items'.
+TEST(LargeWorld, MovesItsOriginAfterASnapshotOfFewerItems) {
+    LargeWorld2 world;
+    const Id id = world.add(Circle{{0, 0}, 1}, {DVec<2>(0.0)});
+    const std::vector<std::byte> bytes = world.save();
+    for (int i = 0; i < 1000; ++i) world.add(Circle{{0, 0}, 1}, {DVec<2>(i, 5)});
+    ASSERT_FALSE(world.restore(bytes));
+    world.move(id, {DVec<2>(1e9, 0)});
+    EXPECT_TRUE(world.update().began.empty());
+    EXPECT_EQ(world.overlapping(Circle{{0, 0}, 1}, {DVec<2>(1e9, 1.5)}), std::vector<Id>{id});
+}
+
 TEST(LargeWorld, GoesBackToASnapshot) {
     expect_restored_far_away<2>();
     expect_restored_far_away<3>();
