@@ -1,31 +1,13 @@
 // Queries of pairs of shapes: random pairs, pairs on a coarse lattice, and pairs that move a little from query to
 // query.
 
-#include "../query/whole_numbers.hpp"
+#include "../query/hashed_answers.hpp"
 #include "sections.hpp"
-#include <abut/query/certify.hpp>
-#include <abut/query/contains.hpp>
 #include <abut/query/each_contact.hpp>
-#include <abut/query/overlaps.hpp>
 #include <abut/query/sweep.hpp>
 
 namespace abut::everywhere {
 namespace {
-
-template <int D>
-void add_cheap_answers(Hash& hash, WholeNumbers<D>& make, const View<D>& a, const View<D>& b, Cache& cache) {
-    hash.add(std::uint64_t{overlaps(a, b)});
-    const Closest<D> found = closest(a, b);
-    add_closest(hash, found);
-    add_closest(hash, closest(a, b, {.cache = &cache}));
-    hash.add(std::uint64_t{certify(a, b, found).holds});
-    add_contact(hash, contact(a, b));
-    add_contact(hash, contact(a, b, {.margin = 1}));
-    hash.add(std::uint64_t{contains(a, make.point())});
-    add_closest(hash, closest(a, make.point()));
-    const Vec<D> from = make.point() * 4.0f;
-    add_hit(hash, raycast(Ray<D>::between(from, make.point()), a));
-}
 
 template <int D>
 void add_sweeps(Hash& hash, WholeNumbers<D>& make, const View<D>& a, const View<D>& b) {

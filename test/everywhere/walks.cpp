@@ -1,112 +1,38 @@
 // Walk meshes: walks, steps, nearest places and paths. The surfaces and steps are integers.
 
-#include "../oracle/random.hpp"
-#include "../shape/meshes.hpp"
+#include "../walk/hashed_walks.hpp"
 #include "sections.hpp"
 #include <abut/walk/survey.hpp>
-#include <abut/walk/walk_mesh.hpp>
-
-#include <cstdint>
-#include <optional>
-#include <utility>
-#include <vector>
 
 namespace abut::everywhere {
 namespace {
 
-float whole(oracle::Random& random, int most) {
-    return static_cast<float>(static_cast<int>(random.below(static_cast<std::uint32_t>(2 * most + 1))) - most);
-}
-
-/// A mesh with borders, holes and folds; some of its triangles are reversed.
-test::Surface ground(oracle::Random& random) {
-    constexpr std::uint32_t columns = 20;
-    test::Surface result;
-    for (std::uint32_t row = 0; row <= columns; ++row)
-        for (std::uint32_t column = 0; column <= columns; ++column)
-            result.points.emplace_back(4 * static_cast<float>(column), whole(random, 3), 4 * static_cast<float>(row));
-    for (std::uint32_t row = 0; row < columns; ++row)
-        for (std::uint32_t column = 0; column < columns; ++column) {
-            if (random.below(12) == 0) continue;
-            const std::uint32_t a = row * (columns + 1) + column, b = a + 1, c = b + columns + 1, d = c - 1;
-            result.triangles.emplace_back(a, c, b);
-            result.triangles.emplace_back(a, d, c);
-            if (random.below(20) == 0) std::swap(result.triangles.back().x, result.triangles.back().y);
-        }
-    return result;
-}
-
-void add_turn(Hash& hash, const WalkTurn& turn, const Vec3& vector) {
-    hash.add<3>(turn * vector);
-    hash.add(turn.in_plane().cos);
-    hash.add(turn.in_plane().sin);
-    for (int i = 0; i < 4; ++i) hash.add(turn.in_space()[i]);
-    hash.add(std::uint64_t{turn.mirrored()});
-}
-
-void add_place(Hash& hash, const WalkPoint& place) {
-    hash.add(std::uint64_t{place.triangle});
-    hash.add<3>(place.weights);
-}
-
-void add_walks(Hash& hash, const test::Surface& surface, std::uint64_t seed, int walks) {
-    const Result<WalkMesh> mesh = WalkMesh::build(surface.points, surface.triangles);
+void add_paths(Hash& hash, const WalkMesh& mesh, std::uint64_t seed) {
     oracle::Random random(seed);
-    WalkPoint place;
-    for (int i = 0; i < walks; ++i) {
-        if (i % 8 == 0) {
-            place.triangle = random.below(static_cast<std::uint32_t>(surface.triangles.size()));
-            if (!mesh->is_walkable(place.triangle)) place.triangle = 0;
-            for (int k = 0; k < 3; ++k) place.weights[k] = static_cast<float>(random.below(4));
-            if (place.weights == Vec3(0)) place.weights.x = 1;
-        }
-        Vec3 step;
-        for (int k = 0; k < 3; ++k) step[k] = whole(random, 64);
-        const auto size = static_cast<float>(1u << random.below(8));
-        const Walked walked = mesh->walk(place, step / size);
-        add_place(hash, walked.place);
-        hash.add(walked.length);
-        hash.add(walked.lost);
-        hash.add(static_cast<std::uint64_t>(walked.met));
-        hash.add(std::uint64_t{walked.side.triangle} << 2 | walked.side.side);
-        hash.add(std::uint64_t{walked.crossings});
-        add_turn(hash, walked.turn, step);
-        hash.add<3>(mesh->to_world(walked.place));
-        hash.add<3>(mesh->normal(walked.place));
-        hash.add<3>(mesh->smooth_normal(walked.place));
-        const WalkedInTriangle inner = mesh->walk_in_triangle(place, step);
-        add_place(hash, inner.end);
-        hash.add(inner.fraction);
-        hash.add(std::uint64_t{inner.side});
-        if (const std::optional<EdgeCrossing> crossing = mesh->cross_edge(inner.end)) {
-            add_place(hash, crossing->place);
-            add_turn(hash, crossing->rotation, step);
-        }
-        place = walked.place;
-    }
-}
-
-void add_paths(Hash& hash, const test::Surface& surface, std::uint64_t seed) {
-    const Result<WalkMesh> mesh = WalkMesh::build(surface.points, surface.triangles);
-    oracle::Random random(seed);
-    const Aabb3 box = bounds(*mesh);
+    const Aabb3 box = bounds(mesh);
     const auto place = [&] {
         Vec3 result;
         for (int i = 0; i < 3; ++i) {
             const auto low = static_cast<double>(box.min[i]), high = static_cast<double>(box.max[i]);
             result[i] = random.uniform_float(low, high);
         }
-        return mesh->nearest(result);
+        return mesh.nearest(result);
     };
     for (int i = 0; i < 20; ++i) {
         const WalkPoint from = place(), to = place();
-        add_place(hash, from);
-        const auto path = mesh->find_path(from, to, {.nearest_reachable = true});
+        test::add_place(hash, from);
+        const auto path = mesh.find_path(from, to, {.nearest_reachable = true});
         if (!path) continue;
         for (const Vec3& point : path->points) hash.add<3>(point);
         hash.add(static_cast<float>(path->length));
     }
-    for (const WalkComponent& component : survey(*mesh).components) hash.add(static_cast<float>(component.area));
+    for (const WalkComponent& component : survey(mesh).components) hash.add(static_cast<float>(component.area));
+}
+
+void add_walks_and_paths(Hash& hash, const test::Surface& surface, std::uint64_t seed) {
+    const Result<WalkMesh> mesh = WalkMesh::build(surface.points, surface.triangles);
+    test::add_walks(hash, *mesh, surface, seed, 2000);
+    add_paths(hash, *mesh, seed);
 }
 
 }  // namespace
@@ -114,14 +40,11 @@ void add_paths(Hash& hash, const test::Surface& surface, std::uint64_t seed) {
 void add_walks(Hash& hash) {
     for (std::uint64_t seed = 0; seed < 5; ++seed) {
         oracle::Random random(seed);
-        const test::Surface hills = ground(random);
-        add_walks(hash, hills, seed, 2000);
-        add_paths(hash, hills, seed);
+        add_walks_and_paths(hash, test::rough_ground(random), seed);
         const int shift = static_cast<int>(seed);
         const test::Surface solid =
             test::cell_surface(4, [&](int x, int y, int z) { return (x * 5 + y * 3 + z + shift) % 4 != 0; });
-        add_walks(hash, solid, seed, 2000);
-        add_paths(hash, solid, seed);
+        add_walks_and_paths(hash, solid, seed);
     }
 }
 
