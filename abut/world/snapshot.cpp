@@ -176,9 +176,8 @@ void World<D>::save(std::vector<std::byte>& bytes) {
     sizes.motions = static_cast<std::uint32_t>(std::count_if(pending_.begin(), pending_.end(), has_motion));
     const auto has_rare = [](const Item& item) { return item.in_use && has_rare_filter(item); };
     sizes.rare_filters = static_cast<std::uint32_t>(std::count_if(items_.begin(), items_.end(), has_rare));
-    sizes.stale =
-        static_cast<std::uint32_t>(std::count_if(results_.touching.begin(), results_.touching.end(), is_stale));
-    sizes.touching = static_cast<std::uint32_t>(results_.touching.size()) - sizes.stale;
+    sizes.stale = static_cast<std::uint32_t>(std::count_if(touching_.begin(), touching_.end(), is_stale));
+    sizes.touching = static_cast<std::uint32_t>(touching_.size()) - sizes.stale;
     sizes.passed = static_cast<std::uint32_t>(results_.passed.size());
 
     const std::size_t size = static_cast<std::size_t>(sizes.words<D>()) * sizeof(std::uint32_t);
@@ -205,13 +204,13 @@ void World<D>::save(std::vector<std::byte>& bytes) {
         const Item& item = items_[slot];
         if (has_rare(item)) writer.put(slot, upper(item.layers), upper(item.mask), item.group);
     }
-    for (const IdPair& pair : results_.touching)
+    for (const IdPair& pair : touching_)
         if (!is_stale(pair)) writer.put(pair.a.index - 1, pair.b.index - 1);
     const auto put_ids = [&writer](const IdPair& pair) {
         writer.put(pair.a);
         writer.put(pair.b);
     };
-    for (const IdPair& pair : results_.touching)
+    for (const IdPair& pair : touching_)
         if (is_stale(pair)) put_ids(pair);
     for (const IdPair& pair : results_.passed) put_ids(pair);
     writer.put(blob_checksum<checksum_sums>(std::span(bytes).first(size)));
@@ -459,10 +458,14 @@ std::optional<Problem> World<D>::restore(std::span<const std::byte> bytes) {
     }
     near_.clear();
     results_.clear();
-    are_all_reported_ = true;
-    for (const IdPair& pair : snapshot.touching) results_.add_touching(pair);
+    contacts_.clear();
+    touching_.clear();
+    for (const IdPair& pair : snapshot.touching) {
+        touching_.push_back(pair);
+        results_.touching.push_back({{pair.a.index - 1, pair.b.index - 1}, 0, 0});
+    }
     results_.passed.assign(snapshot.passed.begin(), snapshot.passed.end());
-    pair_index_.defer(results_.touching.size());
+    pair_index_.defer(touching_.size());
     return std::nullopt;
 }
 

@@ -10,7 +10,7 @@ template <int D>
 void World<D>::visit_touching(Id id, FunctionRef<bool(Id)> visit) const {
     const bool is_valid = contains(id);
     ABUT_ASSERT(is_valid);
-    if (is_valid) pair_index_.visit(results_.touching, id, [&](Id other) { return !contains(other) || visit(other); });
+    if (is_valid) pair_index_.visit(touching_, id, [&](Id other) { return !contains(other) || visit(other); });
 }
 
 template <int D>

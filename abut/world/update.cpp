@@ -10,6 +10,8 @@
 #include <array>
 #include <bit>
 
+#include <hwy/cache_control.h>
+
 namespace abut {
 
 template <int D>
@@ -69,14 +71,19 @@ void World<D>::find_near(Executor* executor) {
         while (!pairs.empty()) {
             std::array<detail::SlotPair, batch> found;
             std::size_t count = 0;
-            for (const auto& [i, j] : pairs.first(std::min(batch, pairs.size()))) {
+            const std::span next = pairs.first(std::min(batch, pairs.size()));
+            for (const auto& [i, j] : next) {
+                hwy::Prefetch(&items_[first.slot(i)].mask);
+                hwy::Prefetch(&items_[second.slot(j)].mask);
+            }
+            for (const auto& [i, j] : next) {
                 const std::uint32_t slot = first.slot(i), other = second.slot(j);
                 const bool are_near =
                     !is_wider || (is_large && detail::DoublePositions<D>::surely_overlap(first.box(i), second.box(j)));
                 if ((!are_near && !may_touch(slot, other)) || !may_pair(slot, other)) continue;
                 found[count++] = {std::min(slot, other), std::max(slot, other)};
             }
-            pairs = pairs.subspan(std::min(batch, pairs.size()));
+            pairs = pairs.subspan(next.size());
             const detail::Lock lock(mutex);
             near_.insert(near_.end(), found.begin(), found.begin() + static_cast<std::ptrdiff_t>(count));
             if (!filters_edges_) continue;
@@ -108,9 +115,16 @@ bool World<D>::are_neighbours(std::uint32_t slot, std::uint32_t other) const {
 /// Lists the neighbours of the items whose contacts are filtered.
 template <int D>
 void World<D>::list_neighbours() {
+    constexpr std::size_t ahead = 8;
     detail::Neighbourhoods<D>& neighbours = memory_->neighbours;
     neighbours.begin_lists(near_.size());
-    for (const auto& [a, b] : near_) {
+    for (std::size_t i = 0; i < near_.size(); ++i) {
+        const detail::SlotPair& later = near_[std::min(i + ahead, near_.size() - 1)];
+        for (const std::uint32_t slot : {later.a, later.b}) {
+            hwy::Prefetch(&items_[slot].place);
+            hwy::Prefetch(&items_[slot].type);
+        }
+        const auto& [a, b] = near_[i];
         const bool for_a = neighbours.may_have_several(a), for_b = neighbours.may_have_several(b);
         if ((!for_a && !for_b) || !are_neighbours(a, b)) continue;
         if (for_a && !items_[a].fixed) neighbours.add(a, {b, box(b)});
@@ -157,29 +171,27 @@ void World<D>::test_near(Executor* executor) {
     join_results(std::span(state.parts).first(parts));
 }
 
-/// Joins what the parts found, in the order of the ids.
+/// Joins what the parts found. All but the contacts is sorted.
 template <int D>
-void World<D>::join_results(std::span<const detail::PairResults<D>> parts) {
-    std::vector<detail::TouchOfPart>&touches = memory_->touches, &scratch = memory_->sorted_touches;
+void World<D>::join_results(std::span<detail::PairResults<D>> parts) {
+    for (const detail::PairResults<D>& part : parts.subspan(1)) parts.front().append(part);
+    std::swap(results_, parts.front());
+    std::swap(parts.front().passed, last_passed_);
+
+    std::vector<detail::TouchingSlots>&touching = results_.touching, &other = memory_->unsorted;
     const int bits = static_cast<int>(std::bit_width(items_.size()));
-    touches.clear();
-    for (std::uint32_t part = 0; part < parts.size(); ++part)
-        for (std::uint32_t i = 0; const IdPair& pair : parts[part].touching)
-            touches.push_back({std::uint64_t{pair.a.index} << bits | pair.b.index, part, i++});
-    scratch.reserve(touches.capacity());
-    scratch.resize(touches.size());
-    const detail::TouchOfPart* const sorted =
-        detail::radix_sort(touches.data(), scratch.data(), touches.size(), 2 * bits,
-                           [](const detail::TouchOfPart& touch) { return touch.key; });
-    std::swap(results_.touching, last_touching_);
-    std::swap(results_.passed, last_passed_);
-    results_.clear();
-    for (const detail::TouchOfPart& touch : std::span(sorted, touches.size())) {
-        results_.add_found(parts[touch.part], touch.place);
-        results_.add_touching(parts[touch.part].touching[touch.place]);
-    }
-    for (const detail::PairResults<D>& part : parts) results_.add_others(part);
-    results_.sort_others();
+    const auto key = [bits](const detail::TouchingSlots& touch) {
+        return std::uint64_t{touch.slots.a} << bits | touch.slots.b;
+    };
+    other.reserve(touching.capacity());
+    other.resize(touching.size());
+    if (detail::radix_sort(touching.data(), other.data(), touching.size(), 2 * bits, key) == other.data())
+        std::swap(touching, other);
+    std::sort(results_.passed.begin(), results_.passed.end());
+    std::sort(results_.impacts.begin(), results_.impacts.end(),
+              [](const WorldImpact<D>& first, const WorldImpact<D>& second) {
+                  return IdPair{first.a, first.b} < IdPair{second.a, second.b};
+              });
 }
 
 template <int D>
@@ -187,12 +199,12 @@ void World<D>::compare_with_last() {
     began_.clear();
     stayed_.clear();
     ended_.clear();
-    auto now = results_.touching.begin();
+    auto now = touching_.begin();
     auto then = last_touching_.begin();
-    while (now != results_.touching.end() || then != last_touching_.end()) {
-        if (then == last_touching_.end() || (now != results_.touching.end() && *now < *then)) {
+    while (now != touching_.end() || then != last_touching_.end()) {
+        if (then == last_touching_.end() || (now != touching_.end() && *now < *then)) {
             began_.push_back(*now++);
-        } else if (now == results_.touching.end() || *then < *now) {
+        } else if (now == touching_.end() || *then < *now) {
             ended_.push_back(*then++);
         } else {
             stayed_.push_back(*now++);
@@ -223,14 +235,15 @@ Events World<D>::find_events(Executor* executor) {
 
     test_near(executor);
     counts_ = {near_.size(), results_.tested, results_.balls};
-    report_contacts();
+    list_results();
     ball_early_outs_.decide();
     // Reserve for the worst case of a scene of this size: the lists are swapped, and all pairs may begin, stay or end.
-    const std::size_t capacity = std::max(results_.touching.capacity(), last_touching_.capacity());
-    for (std::vector<IdPair>* list : {&last_touching_, &results_.touching, &stayed_}) list->reserve(capacity);
+    const std::size_t capacity = std::max(touching_.capacity(), last_touching_.capacity());
+    for (std::vector<IdPair>* list : {&last_touching_, &touching_, &stayed_}) list->reserve(capacity);
     for (std::vector<IdPair>* list : {&results_.passed, &last_passed_}) list->reserve(results_.impacts.capacity());
     for (std::vector<IdPair>* list : {&began_, &ended_}) list->reserve(capacity + results_.impacts.capacity());
     fractions_.reserve(began_.capacity());
+    memory_->parts.front().reserve_like(results_);  // the two are swapped
     contacts_.reserve(results_.found.contacts.capacity());
     last_near_.reserve(near_.capacity());
     memory_->reserve(filters_edges_ ? items_.size() : 0, near_.capacity(), results_.found.contacts.capacity());

@@ -202,9 +202,7 @@ public:
     /// The contacts of the last update, for pairs without a sensor, sorted by pairs. A pair that touches with several
     /// surfaces, such as a crate with the floor and a wall of one mesh, has an entry for each, the deepest first. An
     /// item that touches several others gets surface normals of their union, without ghost collisions: docs/ghosts.md.
-    std::span<const WorldContact<D>> contacts() const {
-        return are_all_reported_ ? results_.found.contacts : contacts_;
-    }
+    std::span<const WorldContact<D>> contacts() const { return contacts_; }
     /// The impacts of the last update, sorted: one for each pair with a continuous item, sensor or not, that began and
     /// touched during its motion.
     std::span<const WorldImpact<D>> impacts() const { return results_.impacts; }
@@ -425,7 +423,7 @@ private:
     void list_neighbours();
     class PairTests;
     void test_near(Executor* executor);
-    void join_results(std::span<const detail::PairResults<D>> parts);
+    void join_results(std::span<detail::PairResults<D>> parts);
     std::optional<Hit<D>> sweep_pair(std::uint32_t slot, std::uint32_t other) const;
     bool filters_edges(std::uint32_t slot) const;
     bool are_neighbours(std::uint32_t slot, std::uint32_t other) const;
@@ -433,7 +431,8 @@ private:
     bool neighbours_changed(const IdPair& pair);
     bool is_covered(std::size_t ghost, const Id& item) const;
     void link_contacts();
-    void report_contacts();
+    bool is_reported(std::size_t found);
+    void list_results();
     void compare_with_last();
     void set_fractions();
 
@@ -480,12 +479,12 @@ private:
     std::vector<detail::SlotPair> near_, last_near_;   // sorted if a filter of pairs is in use
     detail::UpdateMemory<D> memory_;                   // made by the first update
     detail::PairResults<D> results_;                   // sorted
+    std::vector<IdPair> touching_;                     // the pairs of results_.touching
     std::vector<IdPair> last_touching_, last_passed_;  // of the update before
-    bool are_all_reported_ = true;                     // of the contacts in results_
-    std::vector<WorldContact<D>> contacts_;            // those that are reported, if not all are
+    std::vector<WorldContact<D>> contacts_;            // of those in results_, the reported ones; sorted
     std::vector<IdPair> began_, stayed_, ended_;
     std::vector<float> fractions_;  // by index in began_
-    detail::PairIndex pair_index_;  // over results_.touching
+    detail::PairIndex pair_index_;  // over touching_
     UpdateCounts counts_;
     detail::BallEarlyOuts ball_early_outs_;
 };

@@ -52,6 +52,11 @@ struct FoundContacts {
         contacts.reserve(count);
         states.reserve(count);
     }
+    /// For as many contacts as another list has memory for.
+    void reserve_like(const FoundContacts& other) {
+        reserve(other.contacts.capacity());
+        own_areas.reserve(other.own_areas.capacity());
+    }
     /// Adds contacts `begin` to `end - 1` of a list.
     void append(const FoundContacts& from, std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {

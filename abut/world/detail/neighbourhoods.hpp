@@ -62,26 +62,28 @@ public:
     static constexpr std::uint32_t none = 0xFFFFFFFF;
 
     void begin_update(std::size_t items) {
-        near_counts_.assign(items, 0);
         of_slot_.assign(items, {});
-        centers_.assign(items, Center::unknown);
         end_ = 0;
     }
     /// Counts an item near this one, which may be a neighbour.
-    void count(std::uint32_t slot) { ++near_counts_[slot]; }
+    void count(std::uint32_t slot) { ++of_slot_[slot].end; }
     /// Call this when all are counted.
     void begin_lists(std::size_t near_pairs) { neighbours_.resize(std::max(neighbours_.size(), 2 * near_pairs)); }
-    bool may_have_several(std::uint32_t slot) const { return near_counts_[slot] > 1; }
+    bool may_have_several(std::uint32_t slot) const { return of_slot_[slot].begin != none || of_slot_[slot].end > 1; }
     /// Adds a neighbour of an item that may have several. Lists that begin after one another lie beside each other.
     void add(std::uint32_t slot, const Neighbour<D>& neighbour) {
         OfSlot& list = of_slot_[slot];
-        if (list.count == 0) list.begin = std::exchange(end_, end_ + near_counts_[slot]);
-        neighbours_[list.begin + list.count++] = neighbour;
+        if (list.begin == none) {
+            list.begin = std::exchange(end_, end_ + list.end);
+            list.end = list.begin;
+        }
+        neighbours_[list.end++] = neighbour;
     }
     /// The items that pair with this one and are no sensors, if they may be several.
     std::span<const Neighbour<D>> of(std::uint32_t slot) const {
-        if (!may_have_several(slot)) return {};
-        return std::span(neighbours_).subspan(of_slot_[slot].begin, of_slot_[slot].count);
+        const auto& [begin, end, last_cover, center] = of_slot_[slot];
+        if (begin == none) return {};
+        return std::span(neighbours_).subspan(begin, end - begin);
     }
 
     // What is known of an item. Several threads may find out the same.
@@ -89,24 +91,22 @@ public:
     /// The neighbour that ended the last search for the point nearest to a contact, likely the next; none at first.
     std::atomic_ref<std::uint32_t> last_cover(std::uint32_t slot) { return std::atomic_ref(of_slot_[slot].last_cover); }
     enum class Center : std::uint8_t { unknown, covered, uncovered };
-    std::atomic_ref<Center> center(std::uint32_t slot) { return std::atomic_ref(centers_[slot]); }
+    std::atomic_ref<Center> center(std::uint32_t slot) { return std::atomic_ref(of_slot_[slot].center); }
 
     void reserve(std::size_t items, std::size_t near_pairs) {
-        near_counts_.reserve(items);
         of_slot_.reserve(items);
-        centers_.reserve(items);
         neighbours_.reserve(2 * near_pairs);
     }
 
 private:
     struct OfSlot {
-        std::uint32_t begin = 0, count = 0;  ///< in neighbours_
+        std::uint32_t begin = none;  ///< in neighbours_
+        std::uint32_t end = 0;       ///< while there is no list, the count of items near
         std::uint32_t last_cover = none;
+        Center center = Center::unknown;
     };
-    std::vector<std::uint32_t> near_counts_;  // by slot
     std::vector<OfSlot> of_slot_;
-    std::vector<Center> centers_;  // by slot
-    std::uint32_t end_ = 0;        // of the lists so far
+    std::uint32_t end_ = 0;  // of the lists so far
     std::vector<Neighbour<D>> neighbours_;
 };
 

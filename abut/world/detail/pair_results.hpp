@@ -8,7 +8,6 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 namespace abut::detail {
@@ -20,57 +19,53 @@ struct SlotPair {
     friend auto operator<=>(const SlotPair&, const SlotPair&) = default;
 };
 
-/// In the order of the pairs that were tested, or sorted by pairs.
+/// A touching pair.
+struct TouchingSlots {
+    SlotPair slots;            ///< in the order of the ids
+    std::uint32_t begin, end;  ///< of its contacts, among those found
+};
+
+/// What the tests of near pairs find.
 template <int D>
 struct PairResults {
-    std::vector<IdPair> touching;
-    FoundContacts<D> found;               ///< of the touching pairs
-    std::vector<std::size_t> found_end;   ///< by index in touching: of its contacts, which begin where the last ended
+    std::vector<TouchingSlots> touching;  ///< in the order of the tests, or sorted
+    FoundContacts<D> found;               ///< of the touching pairs, in the order of the tests
     std::vector<WorldImpact<D>> impacts;  ///< of continuous pairs that didn't touch at the last update
     std::vector<IdPair> passed;           ///< pairs with an impact that don't touch at the end
     std::size_t tested = 0, balls = 0;    ///< see UpdateCounts
 
     void clear() {
         touching.clear();
-        found_end.clear();
         found.clear();
         impacts.clear();
         passed.clear();
         tested = balls = 0;
     }
-    /// The contacts of touching pair `i`, by their indices.
-    std::pair<std::size_t, std::size_t> found_of(std::size_t i) const {
-        return {i == 0 ? 0 : found_end[i - 1], found_end[i]};
-    }
     /// For the results of this many pairs without parts.
     void reserve(std::size_t pairs) {
         touching.reserve(pairs);
-        found_end.reserve(pairs);
         found.reserve(pairs);
     }
-    /// Adds a touching pair whose contacts were added last.
-    void add_touching(const IdPair& pair) {
-        touching.push_back(pair);
-        found_end.push_back(found.size());
+    /// For as many results as others have memory for.
+    void reserve_like(const PairResults& other) {
+        touching.reserve(other.touching.capacity());
+        found.reserve_like(other.found);
+        impacts.reserve(other.impacts.capacity());
+        passed.reserve(other.passed.capacity());
     }
-    /// Adds the contacts of touching pair `i` of a list.
-    void add_found(const PairResults& from, std::size_t i) {
-        const auto [begin, end] = from.found_of(i);
-        found.append(from.found, begin, end);
+    /// Adds a touching pair whose contacts were added last, from `begin` on.
+    void add_touching(const SlotPair& slots, std::size_t begin) {
+        touching.push_back({slots, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(found.size())});
     }
-    /// Adds what isn't of touching pairs.
-    void add_others(const PairResults& from) {
-        impacts.insert(impacts.end(), from.impacts.begin(), from.impacts.end());
-        passed.insert(passed.end(), from.passed.begin(), from.passed.end());
-        tested += from.tested;
-        balls += from.balls;
-    }
-    /// Sorts what isn't of touching pairs.
-    void sort_others() {
-        std::sort(impacts.begin(), impacts.end(), [](const WorldImpact<D>& first, const WorldImpact<D>& second) {
-            return IdPair{first.a, first.b} < IdPair{second.a, second.b};
-        });
-        std::sort(passed.begin(), passed.end());
+    /// Adds the results of other tests.
+    void append(const PairResults& other) {
+        const auto first = static_cast<std::uint32_t>(found.size());
+        for (const auto& [slots, begin, end] : other.touching) touching.push_back({slots, first + begin, first + end});
+        found.append(other.found, 0, other.found.size());
+        impacts.insert(impacts.end(), other.impacts.begin(), other.impacts.end());
+        passed.insert(passed.end(), other.passed.begin(), other.passed.end());
+        tested += other.tested;
+        balls += other.balls;
     }
 };
 

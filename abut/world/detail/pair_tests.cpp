@@ -58,7 +58,7 @@ template <int D>
 void World<D>::PairTests::test_motion(const IdPair& pair, bool touch) {
     const std::uint32_t a = pair.a.index - 1, b = pair.b.index - 1;
     if (!world_.has_swept_box(a) && !world_.has_swept_box(b)) return;
-    const std::vector<IdPair>& last = world_.results_.touching;
+    const std::vector<IdPair>& last = world_.touching_;
     if (std::binary_search(last.begin(), last.end(), pair)) return;
     const std::optional<Hit<D>> hit = world_.sweep_pair(a, b);
     if (!hit) return;
@@ -69,18 +69,18 @@ void World<D>::PairTests::test_motion(const IdPair& pair, bool touch) {
 /// Repeats the last result of a pair of which neither item changed. Its contact is found anew if a neighbour changed.
 template <int D>
 void World<D>::PairTests::repeat_last(const IdPair& pair) {
-    const detail::PairResults<D>& last = world_.results_;
-    const auto found = std::lower_bound(last.touching.begin(), last.touching.end(), pair);
-    if (found == last.touching.end() || *found != pair) return;
-    const auto i = static_cast<std::size_t>(found - last.touching.begin());
-    const auto [begin, end] = last.found_of(i);
+    const std::vector<IdPair>& last = world_.touching_;
+    const auto found = std::lower_bound(last.begin(), last.end(), pair);
+    if (found == last.end() || *found != pair) return;
+    const auto& [slots, begin, end] = world_.results_.touching[static_cast<std::size_t>(found - last.begin())];
+    const std::size_t first = results_.found.size();
     if (begin != end && world_.neighbours_changed(pair)) {
-        set_frame(pair.a.index - 1);
+        set_frame(slots.a);
         find_contact(pair);
     } else {
-        results_.add_found(last, i);
+        results_.found.append(world_.results_.found, begin, end);
     }
-    results_.add_touching(pair);
+    results_.add_touching(slots, first);
 }
 
 template <int D>
@@ -91,14 +91,15 @@ bool World<D>::PairTests::balls_apart(const IdPair& pair) const {
 /// Tests the shapes of a pair, and adds it to results_.touching if they touch.
 template <int D>
 bool World<D>::PairTests::test_shapes(const IdPair& pair) {
-    const Item &a = items_[pair.a.index - 1], &b = items_[pair.b.index - 1];
-    if (a.sensor || b.sensor) {
+    const detail::SlotPair slots{pair.a.index - 1, pair.b.index - 1};
+    const std::size_t first = results_.found.size();
+    if (items_[slots.a].sensor || items_[slots.b].sensor) {
         const auto [placed_a, placed_b] = placed_views(pair);
         if (!overlaps(placed_a, placed_b)) return false;
     } else if (!find_contact(pair)) {
         return false;
     }
-    results_.add_touching(pair);
+    results_.add_touching(slots, first);
     return true;
 }
 

@@ -15,12 +15,6 @@
 
 namespace abut::detail {
 
-/// A touching pair: its place among those that a part of the tests found.
-struct TouchOfPart {
-    std::uint64_t key;  ///< the order of the pairs
-    std::uint32_t part, place;
-};
-
 /// A contact of items without parts that isn't filtered yet, by its index among those found, and for which of its items
 /// it needs that.
 template <int D>
@@ -64,7 +58,7 @@ struct UpdateState {
     std::vector<PairTestMemory<D>> memories;  ///< one for each part that may run at the same time
     std::vector<std::uint32_t> free_memories;
     std::vector<PairResults<D>> parts;
-    std::vector<TouchOfPart> touches, sorted_touches;
+    std::vector<TouchingSlots> unsorted;  ///< memory for the touching pairs while these are sorted
     /// The contacts of each item, in an update with substitute normals: contact i of those found has the places 2 i
     /// (for its A) and 2 i + 1 (for its B) in found_before, which refer to the item's place before.
     std::vector<std::uint32_t> last_found;  ///< by slot

@@ -5,6 +5,9 @@
 #include <abut/world/world.hpp>
 
 #include <algorithm>
+#include <span>
+
+#include <hwy/cache_control.h>
 
 namespace abut {
 
@@ -76,32 +79,53 @@ void World<D>::link_contacts() {
         }
 }
 
-/// Reports the contacts with surface normals, and then, by id, the ghosts. A ghost that a reported contact covers is
-/// reported by the area that its items have on the surface, if they have any, so that they still hold each other.
+/// Whether a contact is reported, by ids in their order. Contacts with surface normals are; a ghost that one of these
+/// or a ghost before it covers is not.
 template <int D>
-void World<D>::report_contacts() {
-    std::vector<FoundState>& states = results_.found.states;
-    bool any_ghost = false;
-    are_all_reported_ = true;
-    for (FoundState& state : states) {
+bool World<D>::is_reported(std::size_t found) {
+    FoundState& state = results_.found.states[found];
+    const WorldContact<D>& contact = results_.found.contacts[found];
+    if (!state.surface_normal && contact.contact)
+        state.reported = (state.surface_normal.a || !is_covered(found, contact.a)) &&
+                         (state.surface_normal.b || !is_covered(found, contact.b));
+    return state.reported;
+}
+
+/// Lists the touching pairs and the reported contacts, both sorted. A ghost that isn't reported has the area that its
+/// items have on the surface instead, if they have any, so that they still hold each other.
+template <int D>
+void World<D>::list_results() {
+    constexpr std::size_t ahead = 8, cache_line = 64;
+    FoundContacts<D>& found = results_.found;
+    bool any_ghost = false, are_all_reported = true;
+    for (FoundState& state : found.states) {
         const bool is_ghost = !state.surface_normal;
         any_ghost = any_ghost || is_ghost;
         state.reported = state.reported && !is_ghost;
-        are_all_reported_ = are_all_reported_ && state.reported;
+        are_all_reported = are_all_reported && state.reported;
     }
-    if (are_all_reported_) return;
     if (any_ghost) link_contacts();
+    std::swap(touching_, last_touching_);
+    touching_.clear();
     contacts_.clear();
-    for (std::size_t i = 0; i < states.size(); ++i) {
-        const WorldContact<D>& found = results_.found.contacts[i];
-        FoundState& state = states[i];
-        if (!state.surface_normal && found.contact)
-            state.reported = (state.surface_normal.a || !is_covered(i, found.a)) &&
-                             (state.surface_normal.b || !is_covered(i, found.b));
-        if (state.reported)
-            contacts_.push_back(found);
-        else if (state.own_area != FoundState::no_own_area)
-            contacts_.push_back(results_.found.own_areas[state.own_area]);
+    const std::span<const TouchingSlots> touches = results_.touching;
+    for (std::size_t i = 0; i < touches.size(); ++i) {
+        // The contacts are in memory in the order of the tests.
+        const std::size_t later = touches[std::min(i + ahead, touches.size() - 1)].begin;
+        const char* const next = reinterpret_cast<const char*>(found.contacts.data() + later);
+        for (std::size_t at = 0; at < sizeof(WorldContact<D>); at += cache_line) hwy::Prefetch(next + at);
+        if (!are_all_reported) hwy::Prefetch(found.states.data() + later);
+        const auto& [slots, begin, end] = touches[i];
+        if (begin < end)
+            touching_.push_back({found.contacts[begin].a, found.contacts[begin].b});
+        else
+            touching_.push_back({id_of(slots.a), id_of(slots.b)});
+        for (std::size_t k = begin; k < end; ++k) {
+            if (are_all_reported || is_reported(k))
+                contacts_.push_back(found.contacts[k]);
+            else if (const std::uint32_t area = found.states[k].own_area; area != FoundState::no_own_area)
+                contacts_.push_back(found.own_areas[area]);
+        }
     }
 }
 
