@@ -18,12 +18,14 @@
 #include <abut/math/assert.hpp>
 #include <abut/math/executor.hpp>
 #include <abut/math/motion.hpp>
+#include <abut/math/point_span.hpp>
 #include <abut/math/pose.hpp>
 #include <abut/math/pose_from_matrix.hpp>
 #include <abut/math/predicates.hpp>
 #include <abut/math/ray.hpp>
 #include <abut/math/result.hpp>
 #include <abut/math/thread_pool.hpp>
+#include <abut/math/to_vec.hpp>
 #include <abut/math/vec.hpp>
 #include <abut/motion/depenetrate.hpp>
 #include <abut/motion/laser.hpp>

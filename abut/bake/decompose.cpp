@@ -216,8 +216,10 @@ std::optional<Problem> problem_of(std::span<const Vec3> points, std::span<const 
 
 }  // namespace
 
-Result<std::vector<Polyhedron>> decompose(std::span<const Vec3> points, std::span<const glm::uvec3> triangles,
+Result<std::vector<Polyhedron>> decompose(const PointSpan<3>& given, std::span<const glm::uvec3> triangles,
                                           const DecomposeOptions& options) {
+    const PackedPoints<3> packed(given);
+    const std::span<const Vec3> points = packed.points();
     if (std::optional<Problem> problem = problem_of(points, triangles, options)) return *std::move(problem);
     const Welded mesh = weld(points, triangles);
     if (mesh.triangles.empty())

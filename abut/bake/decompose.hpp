@@ -3,6 +3,7 @@
 // Approximate convex decomposition of meshes.
 
 #include <abut/math/function_ref.hpp>
+#include <abut/math/point_span.hpp>
 #include <abut/math/result.hpp>
 #include <abut/math/vec.hpp>
 #include <abut/shape/mesh.hpp>
@@ -69,7 +70,7 @@ struct DecomposeOptions {
 /// The piece whose hull adds the most volume is cut by the plane that leaves the least to cut, with a lookahead of one
 /// cut. At last, parts that were cut needlessly are merged. After Wei, Liu, Ling, Su: "Approximate convex decomposition
 /// for 3D meshes with collision-aware concavity and tree search" (2022), with other measures: docs/decompose.md.
-Result<std::vector<Polyhedron>> decompose(std::span<const Vec3> points, std::span<const glm::uvec3> triangles,
+Result<std::vector<Polyhedron>> decompose(const PointSpan<3>& points, std::span<const glm::uvec3> triangles,
                                           const DecomposeOptions& options = {});
 Result<std::vector<Polyhedron>> decompose(const Mesh& mesh, const DecomposeOptions& options = {});
 

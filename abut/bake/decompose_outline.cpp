@@ -111,8 +111,10 @@ void cut(Partition& partition, OutlineReport& report) {
 
 }  // namespace
 
-Result<std::vector<Polygon>> decompose(std::span<const Vec2> outline, std::span<const std::vector<Vec2>> holes,
+Result<std::vector<Polygon>> decompose(const PointSpan<2>& given, std::span<const std::vector<Vec2>> holes,
                                        const OutlineOptions& options) {
+    const PackedPoints<2> packed(given);
+    const std::span<const Vec2> outline = packed.points();
     OutlineReport unused;
     OutlineReport& report = options.report != nullptr ? *options.report : unused;
     report = {};

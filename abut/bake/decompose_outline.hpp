@@ -2,6 +2,7 @@
 
 // Convex decomposition of outlines with holes.
 
+#include <abut/math/point_span.hpp>
 #include <abut/math/result.hpp>
 #include <abut/math/vec.hpp>
 #include <abut/shape/polygon.hpp>
@@ -58,7 +59,7 @@ struct OutlineOptions {
 /// With `conforming`, straight corners that several parts share stay corners: two parts are not merged if a third one's
 /// corner would then lie within an edge. A straight corner of the outline that belongs to only one part is not a corner
 /// of that part.
-Result<std::vector<Polygon>> decompose(std::span<const Vec2> outline, std::span<const std::vector<Vec2>> holes = {},
+Result<std::vector<Polygon>> decompose(const PointSpan<2>& outline, std::span<const std::vector<Vec2>> holes = {},
                                        const OutlineOptions& options = {});
 
 }  // namespace abut

@@ -5,6 +5,7 @@
 #include <abut/field/field.hpp>
 #include <abut/math/executor.hpp>
 #include <abut/math/function_ref.hpp>
+#include <abut/math/point_span.hpp>
 #include <abut/math/result.hpp>
 #include <abut/shape/any_shape.hpp>
 #include <abut/shape/mesh.hpp>
@@ -75,7 +76,7 @@ struct FieldOptions {
 /// 2^-100 and 2^100, a coordinate or a distance reaches 2^100, or a distance 2^60 cells (`bad_argument`), the volume
 /// would have more than 2^31 stored samples or 2^24 cells along an axis (`too_large`), or `progress` returned false
 /// (`cancelled`). Every baked field can be saved and loaded again.
-Result<Field<3>> bake_field(std::span<const Vec3> points, std::span<const glm::uvec3> triangles,
+Result<Field<3>> bake_field(const PointSpan<3>& points, std::span<const glm::uvec3> triangles,
                             const FieldOptions<3>& options = {});
 Result<Field<3>> bake_field(const Mesh& mesh, const FieldOptions<3>& options = {});
 
@@ -86,7 +87,7 @@ Result<Field<3>> bake_field(const Mesh& mesh, const FieldOptions<3>& options = {
 /// their order. `options` are those of the previous bake; `padding` and `volume` are ignored, other differences are a
 /// Problem (`bad_argument`). A mesh with gaps or a quantised field is baked completely. The previous mesh must not have
 /// had gaps.
-Result<Field<3>> rebake_field(const Field<3>& field, const Aabb3& changed, std::span<const Vec3> points,
+Result<Field<3>> rebake_field(const Field<3>& field, const Aabb3& changed, const PointSpan<3>& points,
                               std::span<const glm::uvec3> triangles, const FieldOptions<3>& options = {});
 Result<Field<3>> rebake_field(const Field<3>& field, const Aabb3& changed, const Mesh& mesh,
                               const FieldOptions<3>& options = {});
@@ -94,7 +95,7 @@ Result<Field<3>> rebake_field(const Field<3>& field, const Aabb3& changed, const
 /// Bakes the signed distance of a region in the plane: an outline and its holes, each without its first point repeated,
 /// in either direction, possibly self-intersecting. A point is inside if it is in the outline and in no hole. A point
 /// is in a ring if the ring's winding number around it isn't zero.
-Result<Field<2>> bake_field(std::span<const Vec2> outline, std::span<const std::vector<Vec2>> holes = {},
+Result<Field<2>> bake_field(const PointSpan<2>& outline, std::span<const std::vector<Vec2>> holes = {},
                             const FieldOptions<2>& options = {});
 
 /// Bakes the signed distance that `closest` reports, for any shape with a finite bounding box.

@@ -48,8 +48,10 @@ void count_points(std::span<const Vec3> points, std::span<const glm::uvec3> tria
 
 }  // namespace
 
-Result<Repaired> repair(std::span<const Vec3> points, std::span<const glm::uvec3> triangles,
+Result<Repaired> repair(const PointSpan<3>& given, std::span<const glm::uvec3> triangles,
                         const RepairOptions& options) {
+    const PackedPoints<3> packed(given);
+    const std::span<const Vec3> points = packed.points();
     if (std::optional<Problem> problem = problem_of(points, triangles, options)) return *std::move(problem);
 
     Repaired result;

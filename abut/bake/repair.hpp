@@ -2,6 +2,7 @@
 
 // Repairs meshes: welds, orients, fills holes, removes degenerate and duplicate triangles.
 
+#include <abut/math/point_span.hpp>
 #include <abut/math/result.hpp>
 #include <abut/math/vec.hpp>
 
@@ -76,7 +77,7 @@ struct Repaired {
 /// every edge is a fixed point. The result is the same on every machine. O(n log n). A Problem if there is no triangle
 /// (`empty_input`), a point isn't finite or an index is out of range (with the point or triangle), no triangle has an
 /// area (`degenerate`), or an option is outside its limits.
-Result<Repaired> repair(std::span<const Vec3> points, std::span<const glm::uvec3> triangles,
+Result<Repaired> repair(const PointSpan<3>& points, std::span<const glm::uvec3> triangles,
                         const RepairOptions& options = {});
 
 }  // namespace abut

@@ -196,8 +196,10 @@ std::vector<glm::uvec3> reachable(const WalkMesh& mesh, std::span<const Vec3> st
 
 }  // namespace
 
-Result<WalkMesh> bake_walk_mesh(std::span<const Vec3> points, std::span<const glm::uvec3> triangles,
+Result<WalkMesh> bake_walk_mesh(const PointSpan<3>& given, std::span<const glm::uvec3> triangles,
                                 const WalkMeshBakeOptions& options) {
+    const PackedPoints<3> packed(given);
+    const std::span<const Vec3> points = packed.points();
     if (std::optional<Problem> problem = problem_of(options)) return *std::move(problem);
     if (std::optional<Problem> problem = problem_of_faces<3>(points, triangles, "a level")) return *std::move(problem);
     if (triangles.size() >= max_triangles || points.size() >= max_triangles)

@@ -3,6 +3,7 @@
 // Walk meshes (navigation meshes) from levels: where a walker of a given size can stand and go, by Recast.
 
 #include <abut/math/function_ref.hpp>
+#include <abut/math/point_span.hpp>
 #include <abut/math/result.hpp>
 #include <abut/math/vec.hpp>
 #include <abut/shape/mesh.hpp>
@@ -67,7 +68,7 @@ struct WalkMeshBakeOptions {
 /// finite (not_finite), an index is out of range, an option is outside its limits (bad_argument), there are more than
 /// 2^26 cells, 65,000 along a side, 8,000 cells of height, 250 floors above one another or 65,000 corners of polygons
 /// (too_large), or `progress` returned false (cancelled).
-Result<WalkMesh> bake_walk_mesh(std::span<const Vec3> points, std::span<const glm::uvec3> triangles,
+Result<WalkMesh> bake_walk_mesh(const PointSpan<3>& points, std::span<const glm::uvec3> triangles,
                                 const WalkMeshBakeOptions& options = {});
 Result<WalkMesh> bake_walk_mesh(const Mesh& level, const WalkMeshBakeOptions& options = {});
 

@@ -26,8 +26,10 @@ std::optional<Problem> detail::problem_of_chain(std::span<const Vec2> points, bo
     return std::nullopt;
 }
 
-Result<Chain> Chain::build(std::span<const Vec2> points, bool closed, const ChainOptions& options) {
+Result<Chain> Chain::build(const PointSpan<2>& given, bool closed, const ChainOptions& options) {
     detail::enter_library();
+    const detail::PackedPoints<2> packed(given);
+    const std::span<const Vec2> points = packed.points();
     if (std::optional<Problem> problem = detail::problem_of_chain(points, closed)) return *std::move(problem);
     auto data = std::make_shared<Data>();
     data->points.assign(points.begin(), points.end());

@@ -2,6 +2,7 @@
 
 // Polyline: level geometry in 2D.
 
+#include <abut/math/point_span.hpp>
 #include <abut/math/result.hpp>
 #include <abut/shape/segment.hpp>
 #include <abut/shape/view/view.hpp>
@@ -30,7 +31,7 @@ class Chain {
 public:
     /// Takes at least two points, or three for a closed chain. Returns a Problem if there are fewer, if a coordinate is
     /// not finite (index: the point) or if a segment has no length (index: the segment).
-    static Result<Chain> build(std::span<const Vec2> points, bool closed, const ChainOptions& options = {});
+    static Result<Chain> build(const PointSpan<2>& points, bool closed, const ChainOptions& options = {});
     static Result<Chain> build(std::initializer_list<Vec2> points, bool closed, const ChainOptions& options = {});
 
     std::span<const Vec2> points() const;

@@ -2,6 +2,7 @@
 
 // Triangle mesh: level geometry in 3D, any triangles in any order.
 
+#include <abut/math/point_span.hpp>
 #include <abut/math/result.hpp>
 #include <abut/shape/triangle.hpp>
 #include <abut/shape/view/view.hpp>
@@ -22,7 +23,7 @@ class Mesh {
 public:
     /// Takes one or more triangles; degenerate, duplicate and intersecting ones are allowed. Returns a Problem if a
     /// coordinate is not finite or an index is out of range; it names the point or triangle.
-    static Result<Mesh> build(std::span<const Vec3> points, std::span<const glm::uvec3> triangles);
+    static Result<Mesh> build(const PointSpan<3>& points, std::span<const glm::uvec3> triangles);
 
     std::span<const Vec3> points() const;
     std::span<const glm::uvec3> triangles() const;

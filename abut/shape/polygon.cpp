@@ -64,13 +64,13 @@ void set_points(Convex<2>& convex, const Polygon& polygon) {
 
 }  // namespace
 
-Result<Polygon> Polygon::build(std::span<const Vec2> points) {
+Result<Polygon> Polygon::build(const PointSpan<2>& points) {
     return build(points, HullOptions());
 }
 
-Result<Polygon> Polygon::build(std::span<const Vec2> points, const HullOptions& options) {
+Result<Polygon> Polygon::build(const PointSpan<2>& points, const HullOptions& options) {
     detail::enter_library();
-    Result<Hull2> built = limited_hull(points, options);
+    Result<Hull2> built = limited_hull(PackedPoints<2>(points).points(), options);
     if (!built) return built.problem();
     Polygon result;
     result.points_ = std::move(built->points);

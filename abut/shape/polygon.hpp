@@ -3,6 +3,7 @@
 // Convex polygon: the convex hull of any points in the plane.
 
 #include <abut/convex/hull/hull_options.hpp>
+#include <abut/math/point_span.hpp>
 #include <abut/math/result.hpp>
 #include <abut/shape/view/shape_ref.hpp>
 
@@ -21,14 +22,14 @@ public:
 
     /// The convex hull of the points, in any order; duplicates are allowed. Returns a Problem only if there are no
     /// points (`empty_input`) or one is NaN or infinite (`not_finite`, index: the point).
-    static Result<Polygon> build(std::span<const Vec2> points);
+    static Result<Polygon> build(const PointSpan<2>& points);
     static Result<Polygon> build(std::initializer_list<Vec2> points);
 
     /// A hull with at most `options.max_vertices` vertices. If the exact hull has more, the result is a larger polygon
     /// with new vertices that contains every input point exactly and adds as little area as the search finds. Otherwise
     /// it is the exact hull, bit for bit. Also returns a Problem if the limit is below 3 (`bad_argument`) or if a
     /// vertex would leave the range of floats (`too_large`). See docs/limited_hulls.md.
-    static Result<Polygon> build(std::span<const Vec2> points, const HullOptions& options);
+    static Result<Polygon> build(const PointSpan<2>& points, const HullOptions& options);
 
     /// The vertices, counter-clockwise from the lexicographically smallest; none is collinear with its neighbours. They
     /// are input points, unless a vertex limit made others, and don't depend on the input's order.

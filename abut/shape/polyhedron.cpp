@@ -17,13 +17,13 @@ constexpr Facets no_facets;
 
 }  // namespace
 
-Result<Polyhedron> Polyhedron::build(std::span<const Vec3> points) {
+Result<Polyhedron> Polyhedron::build(const PointSpan<3>& points) {
     return build(points, HullOptions());
 }
 
-Result<Polyhedron> Polyhedron::build(std::span<const Vec3> points, const HullOptions& options) {
+Result<Polyhedron> Polyhedron::build(const PointSpan<3>& points, const HullOptions& options) {
     detail::enter_library();
-    Result<Hull3> built = limited_hull(points, options);
+    Result<Hull3> built = limited_hull(PackedPoints<3>(points).points(), options);
     if (!built) return built.problem();
     Polyhedron result;
     result.data_ = std::make_shared<const Data>(*std::move(built));

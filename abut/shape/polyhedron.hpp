@@ -4,6 +4,7 @@
 
 #include <abut/convex/bounding_ball.hpp>
 #include <abut/convex/hull/hull_options.hpp>
+#include <abut/math/point_span.hpp>
 #include <abut/math/result.hpp>
 #include <abut/shape/view/shape_ref.hpp>
 
@@ -26,7 +27,7 @@ public:
     /// Returns a Problem only if there are no points (`empty_input`) or one is NaN or infinite (`not_finite`, index:
     /// the point). Points within 1.2e-7 of the extent (the longest side of the bounding box) of the hull of the others
     /// may be dropped.
-    static Result<Polyhedron> build(std::span<const Vec3> points);
+    static Result<Polyhedron> build(const PointSpan<3>& points);
     static Result<Polyhedron> build(std::initializer_list<Vec3> points);
 
     /// A hull with at most `options.max_vertices` vertices. If the exact hull has more, the result is a larger
@@ -34,7 +35,7 @@ public:
     /// finds. Coplanar points stay in their plane, and containment holds in the projection along the axis nearest to
     /// its normal. Otherwise it is the exact hull, bit for bit. Also returns a Problem if the limit is below 4
     /// (`bad_argument`) or if a vertex would leave the range of floats (`too_large`). See docs/limited_hulls.md.
-    static Result<Polyhedron> build(std::span<const Vec3> points, const HullOptions& options);
+    static Result<Polyhedron> build(const PointSpan<3>& points, const HullOptions& options);
 
     /// The vertices, in lexicographical order. They are input points, unless a vertex limit made others, and don't
     /// depend on the input's order.

@@ -5,6 +5,7 @@
 
 #include <abut/broad_phase/visit.hpp>
 #include <abut/math/aabb.hpp>
+#include <abut/math/point_span.hpp>
 #include <abut/math/result.hpp>
 #include <abut/shape/half_space.hpp>
 #include <abut/shape/view/view.hpp>
@@ -72,7 +73,7 @@ public:
 
     /// Takes one or more faces; degenerate faces are ignored. Returns a Problem if a coordinate is not finite (index:
     /// the point) or a point index is out of range (index: the face).
-    static Result<SolidBsp> build(std::span<const Vec<D>> points, std::span<const Face> faces);
+    static Result<SolidBsp> build(const PointSpan<D>& points, std::span<const Face> faces);
 
     /// The union of brushes. Brush k is the intersection of the half-spaces from ends[k - 1] (0 for k = 0) up to
     /// ends[k]. A brush of zero volume is ignored. Faces are numbered as the half-spaces. Returns a Problem if there is

@@ -3,6 +3,7 @@
 // Navigation on a surface: the player is confined to the walkable mesh instead of colliding with walls.
 
 #include <abut/math/aabb.hpp>
+#include <abut/math/point_span.hpp>
 #include <abut/math/result.hpp>
 #include <abut/math/vec.hpp>
 #include <abut/walk/point.hpp>
@@ -96,8 +97,8 @@ public:
     /// A Problem if there is no triangle (empty_input), none has an area (degenerate), a coordinate is not finite or
     /// above 1e15 (not_finite, too_large), an index is out of range, there are 2^28 triangles or more (too_large), or
     /// the number of normals or areas is wrong (bad_argument). O(n log n).
-    static Result<WalkMesh> build(std::span<const Vec3> points, std::span<const glm::uvec3> triangles,
-                                  std::span<const Vec3> normals = {}, std::span<const std::uint8_t> areas = {});
+    static Result<WalkMesh> build(const PointSpan<3>& points, std::span<const glm::uvec3> triangles,
+                                  const PointSpan<3>& normals = {}, std::span<const std::uint8_t> areas = {});
 
     const WalkMeshReport& report() const;
     std::span<const Vec3> points() const;             ///< as in the input

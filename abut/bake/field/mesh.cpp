@@ -149,11 +149,11 @@ Result<Field<3>> filled(FieldData<3> grid, const SampleSource<3>& source, const 
 
 }  // namespace
 
-Result<Field<3>> bake_field(std::span<const Vec3> points, std::span<const glm::uvec3> triangles,
+Result<Field<3>> bake_field(const PointSpan<3>& points, std::span<const glm::uvec3> triangles,
                             const FieldOptions<3>& options) {
     BakeJob job(options);
     if (!job.begin(0.1)) return BakeJob::cancelled();
-    const Result<FieldSurface> surface = field_surface(points, triangles);
+    const Result<FieldSurface> surface = field_surface(PackedPoints<3>(points).points(), triangles);
     if (!surface) return surface.problem();
     Result<FieldData<3>> grid = field_grid(surface->box, options);
     if (!grid) return grid.problem();
@@ -165,7 +165,7 @@ Result<Field<3>> bake_field(const Mesh& mesh, const FieldOptions<3>& options) {
     return bake_field(mesh.points(), mesh.triangles(), options);
 }
 
-Result<Field<3>> rebake_field(const Field<3>& field, const Aabb3& changed, std::span<const Vec3> points,
+Result<Field<3>> rebake_field(const Field<3>& field, const Aabb3& changed, const PointSpan<3>& points,
                               std::span<const glm::uvec3> triangles, const FieldOptions<3>& options) {
     const FieldData<3>& before = field.data();
     if (options.store != before.store || options.lookup != before.lookup ||
@@ -174,7 +174,7 @@ Result<Field<3>> rebake_field(const Field<3>& field, const Aabb3& changed, std::
         return Problem{ProblemCode::bad_argument, "the field wasn't baked with these options", 0};
     BakeJob job(options);
     if (!job.begin(0.1)) return BakeJob::cancelled();
-    const Result<FieldSurface> surface = field_surface(points, triangles);
+    const Result<FieldSurface> surface = field_surface(PackedPoints<3>(points).points(), triangles);
     if (!surface) return surface.problem();
     FieldData<3> grid;
     grid.origin = before.origin;

@@ -133,8 +133,10 @@ private:
 
 }  // namespace
 
-Result<Field<2>> bake_field(std::span<const Vec2> outline, std::span<const std::vector<Vec2>> holes,
+Result<Field<2>> bake_field(const PointSpan<2>& given, std::span<const std::vector<Vec2>> holes,
                             const FieldOptions<2>& options) {
+    const PackedPoints<2> packed(given);
+    const std::span<const Vec2> outline = packed.points();
     BakeJob work(options);
     if (!work.begin(0.1)) return BakeJob::cancelled();
     Sides sides;

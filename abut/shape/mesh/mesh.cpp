@@ -28,8 +28,10 @@ bool is_beyond(const Triangle3& t, const Vec3& point) {
 
 }  // namespace
 
-Result<Mesh> Mesh::build(std::span<const Vec3> points, std::span<const glm::uvec3> triangles) {
+Result<Mesh> Mesh::build(const PointSpan<3>& given, std::span<const glm::uvec3> triangles) {
     detail::enter_library();
+    const PackedPoints<3> packed(given);
+    const std::span<const Vec3> points = packed.points();
     if (std::optional<Problem> problem = problem_of_faces<3>(points, triangles, "a mesh")) return *std::move(problem);
     auto data = std::make_shared<MeshSurface>();
     data->points.assign(points.begin(), points.end());

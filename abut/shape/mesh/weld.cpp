@@ -102,11 +102,13 @@ std::vector<std::uint32_t> representatives(std::span<const Vec3> points, double 
 
 }  // namespace
 
-Welded weld(std::span<const Vec3> points, std::span<const glm::uvec3> triangles) {
+Welded weld(const PointSpan<3>& points, std::span<const glm::uvec3> triangles) {
     return weld(points, triangles, 0);
 }
 
-Welded weld(std::span<const Vec3> points, std::span<const glm::uvec3> triangles, double distance) {
+Welded weld(const PointSpan<3>& given, std::span<const glm::uvec3> triangles, double distance) {
+    const PackedPoints<3> packed(given);
+    const std::span<const Vec3> points = packed.points();
     const std::vector<std::uint32_t> representative = representatives(points, distance);
     std::vector<std::uint32_t> number(points.size(), no_index);
     Welded result;

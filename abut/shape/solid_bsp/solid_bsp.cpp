@@ -190,8 +190,10 @@ bool visit_pieces(const SolidTree<D>& tree, std::uint32_t at, const Vec<D>& eye,
 }  // namespace
 
 template <int D>
-Result<SolidBsp<D>> SolidBsp<D>::build(std::span<const Vec<D>> points, std::span<const Face> faces) {
+Result<SolidBsp<D>> SolidBsp<D>::build(const PointSpan<D>& given, std::span<const Face> faces) {
     detail::enter_library();
+    const PackedPoints<D> packed(given);
+    const std::span<const Vec<D>> points = packed.points();
     if (std::optional<Problem> problem = problem_of_faces<D>(points, faces, "a level")) return *std::move(problem);
     auto tree = std::make_shared<SolidTree<D>>();
     tree->points.assign(points.begin(), points.end());
@@ -277,19 +279,19 @@ std::size_t SolidBsp<D>::piece_count() const {
     return tree_->pieces.size();
 }
 
-#define ABUT_INSTANTIATE(D)                                                                                       \
-    template SolidBsp<D>::SolidBsp(std::shared_ptr<const SolidTree<D>>);                                          \
-    template Result<SolidBsp<D>> SolidBsp<D>::build(std::span<const Vec<D>>, std::span<const SolidBsp<D>::Face>); \
-    template bool SolidBsp<D>::contains(const Vec<D>&) const;                                                     \
-    template void SolidBsp<D>::visit_from(const Vec<D>&, SolidBsp<D>::PieceCall) const;                           \
-    template Aabb<D> SolidBsp<D>::bounds() const;                                                                 \
-    template void SolidBsp<D>::each_part(const Aabb<D>&, PartVisitor<D>) const;                                   \
-    template void SolidBsp<D>::each_part_along(const MovingBox<D>&, PartReachVisitor<D>) const;                   \
-    template void SolidBsp<D>::each_part_near(const Aabb<D>&, PartReachVisitor<D>) const;                         \
-    template Aabb<D> SolidBsp<D>::part_bounds() const;                                                            \
-    template std::size_t SolidBsp<D>::part_count() const;                                                         \
-    template std::size_t SolidBsp<D>::node_count() const;                                                         \
-    template std::size_t SolidBsp<D>::depth() const;                                                              \
+#define ABUT_INSTANTIATE(D)                                                                                   \
+    template SolidBsp<D>::SolidBsp(std::shared_ptr<const SolidTree<D>>);                                      \
+    template Result<SolidBsp<D>> SolidBsp<D>::build(const PointSpan<D>&, std::span<const SolidBsp<D>::Face>); \
+    template bool SolidBsp<D>::contains(const Vec<D>&) const;                                                 \
+    template void SolidBsp<D>::visit_from(const Vec<D>&, SolidBsp<D>::PieceCall) const;                       \
+    template Aabb<D> SolidBsp<D>::bounds() const;                                                             \
+    template void SolidBsp<D>::each_part(const Aabb<D>&, PartVisitor<D>) const;                               \
+    template void SolidBsp<D>::each_part_along(const MovingBox<D>&, PartReachVisitor<D>) const;               \
+    template void SolidBsp<D>::each_part_near(const Aabb<D>&, PartReachVisitor<D>) const;                     \
+    template Aabb<D> SolidBsp<D>::part_bounds() const;                                                        \
+    template std::size_t SolidBsp<D>::part_count() const;                                                     \
+    template std::size_t SolidBsp<D>::node_count() const;                                                     \
+    template std::size_t SolidBsp<D>::depth() const;                                                          \
     template std::size_t SolidBsp<D>::piece_count() const;
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)

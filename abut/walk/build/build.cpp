@@ -85,9 +85,11 @@ void orient_consistently(Walkable& walkable, WalkMeshData& data) {
 
 }  // namespace
 
-Result<WalkMesh> WalkMesh::build(std::span<const Vec3> points, std::span<const glm::uvec3> triangles,
-                                 std::span<const Vec3> normals, std::span<const std::uint8_t> areas) {
+Result<WalkMesh> WalkMesh::build(const PointSpan<3>& given_points, std::span<const glm::uvec3> triangles,
+                                 const PointSpan<3>& given_normals, std::span<const std::uint8_t> areas) {
     detail::enter_library();
+    const PackedPoints<3> packed_points(given_points), packed_normals(given_normals);
+    const std::span<const Vec3> points = packed_points.points(), normals = packed_normals.points();
     if (std::optional<Problem> problem = problem_of_walk_mesh(points, triangles, normals, areas))
         return *std::move(problem);
     auto data = std::make_shared<WalkMeshData>();
