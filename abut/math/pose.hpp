@@ -91,6 +91,9 @@ Pose3 operator*(const Pose3& outer, const Pose3& inner);
 Pose2 inverse(const Pose2& pose);
 Pose3 inverse(const Pose3& pose);
 
+#ifdef GLM_FORCE_QUAT_CTOR_XYZW
+#error "abut needs glm's quaternions made of w x y z: build without GLM_FORCE_QUAT_CTOR_XYZW"
+#endif
 static_assert(sizeof(glm::quat) == 4 * sizeof(float) && offsetof(glm::quat, x) == 0,
               "abut needs glm's quaternions stored x y z w: build without GLM_FORCE_QUAT_DATA_WXYZ");
 
