@@ -79,11 +79,18 @@ struct ThreadPool::State {
 ThreadPool::ThreadPool(std::uint32_t workers) : state_(std::make_unique<State>()) {
     if (workers == 0) workers = std::max(1u, std::thread::hardware_concurrency());
     state_->threads.reserve(workers - 1);
-    try {
+    const auto start = [&] {
         for (std::uint32_t i = 1; i < workers; ++i) state_->threads.emplace_back([this] { state_->work(); });
+    };
+#if defined(__cpp_exceptions)
+    try {
+        start();
     } catch (const std::system_error&) {
         // The system gives no more threads: those that started do all the work.
     }
+#else
+    start();
+#endif
 }
 
 ThreadPool::~ThreadPool() {
