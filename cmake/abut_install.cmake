@@ -1,4 +1,4 @@
-# cmake --install: headers and shaders, libraries, the tool, and the package that find_package(abut) finds. Each library
+# cmake --install: headers and shaders, printers for debuggers, libraries, the tool, and the package that find_package(abut) finds. Each library
 # is a component with an export of its own, so that a game which wants abut::abut needs no Assimp.
 include(CMakePackageConfigHelpers)
 
@@ -37,6 +37,8 @@ install(CODE "set(source \"${PROJECT_SOURCE_DIR}\")
 install(SCRIPT ${CMAKE_CURRENT_LIST_DIR}/install_headers.cmake)
 install(FILES ${PROJECT_SOURCE_DIR}/abut/c/abut_api.json DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/abut/c)
 install(FILES ${PROJECT_SOURCE_DIR}/abut/field/abut_field.glsl DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/abut/field)
+install(FILES ${PROJECT_SOURCE_DIR}/packaging/debug/abut_gdb.py ${PROJECT_SOURCE_DIR}/packaging/debug/abut.natvis
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/abut)
 
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/abutConfig.cmake.in ${PROJECT_BINARY_DIR}/abutConfig.cmake
     INSTALL_DESTINATION ${package_dir})
@@ -45,7 +47,15 @@ install(FILES ${PROJECT_BINARY_DIR}/abutConfig.cmake ${PROJECT_BINARY_DIR}/abutC
     ${PROJECT_SOURCE_DIR}/cmake/FindRecast.cmake
     DESTINATION ${package_dir})
 
+if(NOT MSVC)
+    include(abut_pkg_config)
+endif()
+
 if(ABUT_TOOL)
     add_dependencies(abut_product abut_tool scenes)
+    if(ABUT_LIBRARY_TYPE STREQUAL "SHARED")
+        file(RELATIVE_PATH to_libraries /prefix/${CMAKE_INSTALL_BINDIR} /prefix/${CMAKE_INSTALL_LIBDIR})
+        set_target_properties(abut_tool PROPERTIES INSTALL_RPATH $<$<PLATFORM_ID:Linux>:$ORIGIN/${to_libraries}>)
+    endif()
     install(TARGETS abut_tool RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()

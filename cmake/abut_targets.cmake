@@ -86,14 +86,30 @@ function(abut_unity target)
     target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endfunction()
 
-# A static library of the .cpp files in the given folders of abut/, known as abut::NAME; of headers alone where there are none.
+# With BUILD_SHARED_LIBS the libraries are shared ones, where the platform has such.
+get_property(ABUT_HAS_SHARED_LIBRARIES GLOBAL PROPERTY TARGET_SUPPORTS_SHARED_LIBS)
+if(BUILD_SHARED_LIBS AND ABUT_HAS_SHARED_LIBRARIES)
+    set(ABUT_LIBRARY_TYPE SHARED)
+else()
+    set(ABUT_LIBRARY_TYPE STATIC)
+endif()
+
+# A shared library exports all its functions, since the public templates call those of detail as well (docs/decisions/0014). Its
+# own calls are as direct as in a static one. Before 1.0 a minor version may break, so the name of the file holds it.
+function(abut_shared target)
+    set_target_properties(${target} PROPERTIES
+        CXX_VISIBILITY_PRESET default WINDOWS_EXPORT_ALL_SYMBOLS ON
+        VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
+        INSTALL_RPATH $<$<PLATFORM_ID:Linux>:$ORIGIN>)
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU,Clang>:-fno-semantic-interposition>)
+    target_link_options(${target} PRIVATE $<$<PLATFORM_ID:Linux>:LINKER:-Bsymbolic-functions>)
+endfunction()
+
+# A library of the .cpp files in the given folders of abut/, known as abut::NAME; of headers alone where there are none.
 #   abut_library(abut_bake EXPORT_NAME bake FOLDERS bake LINK abut_core)  ->  abut::bake
-# LINK is what users of the library need as well, unless the TYPE is SHARED: such a library holds it.
+# LINK is what users of the library need as well.
 function(abut_library target)
-    cmake_parse_arguments(PARSE_ARGV 1 arg "" "EXPORT_NAME;TYPE" "FOLDERS;LINK")
-    if(NOT arg_TYPE)
-        set(arg_TYPE STATIC)
-    endif()
+    cmake_parse_arguments(PARSE_ARGV 1 arg "" "EXPORT_NAME" "FOLDERS;LINK")
     set(sources)
     foreach(folder IN LISTS arg_FOLDERS)
         file(GLOB_RECURSE found CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/abut/${folder}/*.cpp)
@@ -101,12 +117,14 @@ function(abut_library target)
     endforeach()
     if(sources)
         set(scope PUBLIC)
-        add_library(${target} ${arg_TYPE} ${sources})
+        add_library(${target} ${ABUT_LIBRARY_TYPE} ${sources})
         # A shared library can hold it, such as that of the C API or a game's plug-in. With hidden symbols, calls within the
         # library are as direct as without.
-        get_property(has_shared_libraries GLOBAL PROPERTY TARGET_SUPPORTS_SHARED_LIBS)
         set_target_properties(${target} PROPERTIES
-            POSITION_INDEPENDENT_CODE ${has_shared_libraries} CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+            POSITION_INDEPENDENT_CODE ${ABUT_HAS_SHARED_LIBRARIES} CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+        if(ABUT_LIBRARY_TYPE STREQUAL "SHARED")
+            abut_shared(${target})
+        endif()
         abut_strict(${target})
         abut_unity(${target})
     else()
@@ -130,11 +148,7 @@ function(abut_library target)
     endforeach()
     add_library(abut::${arg_EXPORT_NAME} ALIAS ${target})
     set_target_properties(${target} PROPERTIES EXPORT_NAME ${arg_EXPORT_NAME})
-    if(arg_TYPE STREQUAL "SHARED")
-        target_link_libraries(${target} PRIVATE ${arg_LINK})
-    else()
-        target_link_libraries(${target} ${scope} ${arg_LINK})
-    endif()
+    target_link_libraries(${target} ${scope} ${arg_LINK})
     target_compile_features(${target} ${scope} cxx_std_20)
     target_compile_options(${target} ${scope} ${ABUT_SAME_BITS})
     if(ABUT_ASSERTS)
