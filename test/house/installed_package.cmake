@@ -1,6 +1,7 @@
-# Installs abut, builds the consumer against it from outside (where there is no Assimp), and compares what it prints with
-# what ours prints.
-#   cmake -D build= -D folder= -D consumer= -D here= -D with_recast= -D asserts= -D generator= -D compiler= -D flags= -P installed_package.cmake
+# Installs abut, moves the folder, builds the consumer against it from outside (where there is no Assimp), by CMake and by
+# pkg-config, and compares what it prints with what ours prints.
+#   cmake -D build= -D folder= -D consumer= -D here= -D with_recast= -D asserts= -D with_io= -D pkg_config= -D generator=
+#       -D compiler= -D flags= -P installed_package.cmake
 function(must)
     execute_process(COMMAND ${ARGN} OUTPUT_VARIABLE output ERROR_VARIABLE output RESULT_VARIABLE result)
     if(NOT result EQUAL 0)
@@ -12,7 +13,8 @@ endfunction()
 
 # Anew each time: a header that is no longer installed must not be found.
 file(REMOVE_RECURSE ${folder})
-must(${CMAKE_COMMAND} --install ${build} --prefix ${folder}/prefix)
+must(${CMAKE_COMMAND} --install ${build} --prefix ${folder}/before)
+file(RENAME ${folder}/before ${folder}/prefix)
 file(GLOB_RECURSE shaders ${folder}/prefix/abut_field.glsl)
 if(NOT shaders MATCHES "/abut/field/abut_field.glsl$")
     message(FATAL_ERROR "abut_field.glsl is not installed beside the headers: ${shaders}")
@@ -47,5 +49,34 @@ endif()
 must(${folder}/build/consumer_c)
 if(with_recast)
     must(${folder}/build/consumer_recast)
+endif()
+
+# Without CMake. The flags of the build, such as a sanitizer's, come after those of the package.
+if(pkg_config)
+    file(GLOB_RECURSE package ${folder}/prefix/abut.pc)
+    get_filename_component(package_folder ${package} DIRECTORY)
+    set(ENV{PKG_CONFIG_PATH} ${package_folder}:$ENV{PKG_CONFIG_PATH})
+    must(${pkg_config} --print-errors --exists abut abut-bake abut-draw abut-c)
+    if(with_io)
+        must(${pkg_config} --print-errors --exists abut-io)
+    endif()
+    if(with_recast)
+        must(${pkg_config} --print-errors --exists abut-recast)
+    endif()
+    separate_arguments(own_flags UNIX_COMMAND "${flags}")
+    must(${pkg_config} --cflags --libs abut)
+    if(NOT output MATCHES "-ffp-contract=off")
+        message(FATAL_ERROR "The flags of abut.pc miss -ffp-contract=off: ${output}")
+    endif()
+    separate_arguments(package_flags UNIX_COMMAND "${output}")
+    must(${compiler} ${consumer}/main.cpp ${package_flags} ${own_flags} -O0 -o ${folder}/with_pkg_config)
+    must(${folder}/with_pkg_config)
+    if(NOT output STREQUAL answers)
+        message(FATAL_ERROR "built with pkg-config:\n${output}\nbuilt here:\n${answers}")
+    endif()
+    must(${pkg_config} --cflags --libs abut-c)
+    separate_arguments(package_flags UNIX_COMMAND "${output}")
+    must(${compiler} -x c ${consumer}/main.c -x none ${package_flags} ${own_flags} -o ${folder}/c_with_pkg_config)
+    must(${folder}/c_with_pkg_config)
 endif()
 message(STATUS "${answers}")
