@@ -97,8 +97,9 @@ endif()
 # A shared library exports all its functions, since the public templates call those of detail as well (docs/decisions/0014). Its
 # own calls are as direct as in a static one. Before 1.0 a minor version may break, so the name of the file holds it.
 function(abut_shared target)
+    # Without the symbol that CMake defines for each library, they share precompiled headers.
     set_target_properties(${target} PROPERTIES
-        CXX_VISIBILITY_PRESET default WINDOWS_EXPORT_ALL_SYMBOLS ON
+        DEFINE_SYMBOL "" CXX_VISIBILITY_PRESET default WINDOWS_EXPORT_ALL_SYMBOLS ON
         VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
         INSTALL_RPATH $<$<PLATFORM_ID:Linux>:$ORIGIN>)
     target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU,Clang>:-fno-semantic-interposition>)
