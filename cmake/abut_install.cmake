@@ -1,5 +1,5 @@
-# cmake --install: headers and shaders, printers for debuggers, libraries, the tool, and the package that find_package(abut) finds. Each library
-# is a component with an export of its own, so that a game which wants abut::abut needs no Assimp.
+# cmake --install: headers and shaders, printers for debuggers, libraries, the tool, and the package that find_package(abut) finds.
+# Each library is a component with an export of its own, so that a game which wants abut::abut needs no Assimp.
 include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/abut)
