@@ -2,6 +2,7 @@
 
 // Vector types: glm's vectors, float in the public interface and double inside.
 
+#include <cfloat>
 #include <cmath>
 #include <cstddef>
 #include <type_traits>
@@ -25,6 +26,10 @@ static_assert(sizeof(Vec2) == 2 * sizeof(float) && sizeof(Vec3) == 3 * sizeof(fl
               "abut needs glm's packed vectors: build without GLM_FORCE_DEFAULT_ALIGNED_GENTYPES");
 static_assert(std::is_same_v<glm::length_t, int>,
               "abut needs glm's lengths to be int: build without GLM_FORCE_SIZE_T_LENGTH");
+
+// What is inline in headers needs it of the user's flags, as the library does of its own. Only x87 arithmetic lacks it.
+static_assert(FLT_EVAL_METHOD == 0,
+              "abut needs numbers without excess precision: on i386 build with -msse2 -mfpmath=sse");
 
 }  // namespace abut
 
