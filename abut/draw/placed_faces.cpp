@@ -36,9 +36,9 @@ void add_triangle(PlacedFaces& result, const Convex<3>& convex) {
 
 void add_facets(PlacedFaces& result, const Convex<3>& convex) {
     const Facets& facets = *convex.facets;
-    auto begin = facets.loops.begin();
+    auto begin = facets.loops.data();
     for (std::size_t i = 0; i < facets.normals.size(); ++i) {
-        const auto end = facets.loops.begin() + facets.loop_ends[i];
+        const auto end = facets.loops.data() + facets.loop_ends[i];
         add_face(result, convex, DVec<3>(facets.normals[i]), {begin, end});
         begin = end;
     }

@@ -351,7 +351,7 @@ bool World<D>::Snapshot::read_lists(std::span<const std::byte> lists, const Snap
     };
     for (std::size_t i = sizes.touching; i < touching.size(); ++i)
         if (is_present(touching[i].a) && is_present(touching[i].b)) return false;
-    std::inplace_merge(touching.begin(), touching.begin() + sizes.touching, touching.end());
+    std::inplace_merge(touching.data(), touching.data() + sizes.touching, touching.data() + touching.size());
     get_ids(passed, sizes.passed);
     const auto are_pairs = [&](const std::vector<IdPair>& pairs) {
         const auto is_pair = [&](const IdPair& pair) {
@@ -429,7 +429,8 @@ std::optional<Problem> World<D>::restore(std::span<const std::byte> bytes) {
         if (items_[slot].in_use) free_slot(slot);
     for (const auto& [slot, generation] : snapshot.free)
         if (slot < items_.size() && items_[slot].in_use) free_slot(slot);
-    if (items_.size() > snapshot.slots) items_.erase(items_.begin() + snapshot.slots, items_.end());
+    if (items_.size() > snapshot.slots)
+        items_.erase(items_.begin() + static_cast<std::ptrdiff_t>(snapshot.slots), items_.end());
     shape_hashes_.resize(snapshot.slots, 0);
     if (items_.size() < snapshot.slots) items_.resize(snapshot.slots, Item{.stored = AnyShape<D>(Ball<D>{})});
     // All pairs are to be tested: also those that a removed item leaves behind.

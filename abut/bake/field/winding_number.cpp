@@ -28,7 +28,7 @@ GeneralizedWindingNumber::GeneralizedWindingNumber(std::span<const Vec3> points,
 
 void GeneralizedWindingNumber::divide(std::uint32_t number) {
     Group group = groups_[number];
-    const auto begin = corners_.begin() + group.first, end = begin + group.count;
+    const auto begin = corners_.data() + group.first, end = begin + group.count;
     double areas = 0;
     DVec<3> middle(0.0), mean(0.0), low = begin->a, high = begin->a;
     for (auto t = begin; t != end; ++t) {

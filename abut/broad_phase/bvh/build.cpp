@@ -110,7 +110,7 @@ void BvhTree<D>::make_upper_node(std::uint32_t range_index, bool bounded, std::u
     std::array<std::uint32_t, bvh_lanes> child{range_index};
     std::uint32_t count = 1;
     for (std::uint32_t next = 0; next != bvh_none && count < bvh_lanes; ++count) {
-        std::copy_backward(child.begin() + next + 1, child.begin() + count, child.begin() + count + 1);
+        std::copy_backward(child.data() + next + 1, child.data() + count, child.data() + count + 1);
         const std::uint32_t left = upper_ranges_[child[next]].left;
         child[next] = left;
         child[next + 1] = left + 1;

@@ -54,7 +54,7 @@ private:
         child[0] = range;
         std::uint32_t count = 1;
         for (std::uint32_t next = 0; next != bvh_none && count < bvh_lanes; ++count) {
-            std::copy_backward(child.begin() + next + 1, child.begin() + count, child.begin() + count + 1);
+            std::copy_backward(child.data() + next + 1, child.data() + count, child.data() + count + 1);
             split(subtree_.items.data(), bounded_, child[next], child[next], child[next + 1]);
             next = largest(child, count + 1, max_items);
         }

@@ -76,7 +76,7 @@ std::uint32_t Bsp<D>::build_node(std::uint32_t begin, std::uint32_t end, int dep
             if (side_of(entries_[i].box, split.axis, split.plane) == side) scratch_[place++] = entries_[i];
         ends[side] = place;
     }
-    std::copy(scratch_.begin() + begin, scratch_.begin() + end, entries_.begin() + begin);
+    std::copy(scratch_.data() + begin, scratch_.data() + end, entries_.data() + begin);
 
     Node node{begin, end};
     node.axis = split.axis;
@@ -100,8 +100,8 @@ auto Bsp<D>::choose_split(std::uint32_t begin, std::uint32_t end) -> Split {
     std::uint32_t least_cost = end - begin;
     for (int axis = 0; axis < D; ++axis) {
         for (std::uint32_t i = begin; i < end; ++i) centers_[i] = center(entries_[i].box)[axis];
-        const auto median = centers_.begin() + (begin + end) / 2;
-        std::nth_element(centers_.begin() + begin, median, centers_.begin() + end);
+        const auto median = centers_.data() + (begin + end) / 2;
+        std::nth_element(centers_.data() + begin, median, centers_.data() + end);
         std::uint32_t counts[3] = {};
         for (std::uint32_t i = begin; i < end; ++i) ++counts[side_of(entries_[i].box, axis, *median)];
         const std::uint32_t cost = counts[straddles] + std::max(counts[below], counts[above]);

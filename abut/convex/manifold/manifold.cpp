@@ -183,7 +183,7 @@ Manifold<D> reduced_manifold(const ManifoldCandidates<D>& all, const DVec<D>& no
         index_of_max(all, [&](const ManifoldPoint<D>& p) { return p.depth >= threshold ? 1 : 0; });
     const auto indices = selected(all, deepest, normal);
     for (std::size_t i = 0; i < indices.size(); ++i)
-        if (std::find(indices.begin(), indices.begin() + i, indices[i]) == indices.begin() + i)
+        if (std::find(indices.data(), indices.data() + i, indices[i]) == indices.data() + i)
             result.points[result.count++] = all.points[indices[i]];
     return result;
 }

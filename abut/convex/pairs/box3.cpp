@@ -72,7 +72,7 @@ struct Writer {
         }
         for (std::size_t k = 0; k < selected_count; ++k) {
             const std::size_t i = selected[k];
-            if (std::find(selected.begin(), selected.begin() + k, i) != selected.begin() + k) continue;
+            if (std::find(selected.data(), selected.data() + k, i) != selected.data() + k) continue;
             Triple place = clipped.point_on_face(number[i]);
             const double along = clipped.gap[number[i]] + 0.5 * depths[i];
             for (std::size_t axis = 0; axis < 3; ++axis) place[axis] += out[axis] * along;

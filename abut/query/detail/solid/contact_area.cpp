@@ -290,7 +290,7 @@ private:
     }
     void add(const DVec<3>& normal) {
         const auto same = [&](const DVec<3>& other) { return dot(normal, other) > same_direction; };
-        if (count_ == normals_.size() || std::any_of(normals_.begin(), normals_.begin() + count_, same)) return;
+        if (count_ == normals_.size() || std::any_of(normals_.data(), normals_.data() + count_, same)) return;
         normals_[count_++] = normal;
     }
 
