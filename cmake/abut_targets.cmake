@@ -47,11 +47,11 @@ function(abut_strict target)
 endfunction()
 
 # The headers that most files of a target include are read once for all of them. Inside somebody else's build, what is
-# compiled beforehand is his to choose.
+# compiled beforehand is his to choose: he sets ABUT_PRECOMPILE.
 #   abut_precompile(abut_core PRIVATE <vector> <abut/math/pose.hpp>)
 #   abut_precompile(abut_bake REUSE_FROM abut_core)
 function(abut_precompile target)
-    if(ABUT_TOP_LEVEL AND ABUT_UNITY)
+    if(ABUT_UNITY AND (ABUT_TOP_LEVEL OR ABUT_PRECOMPILE))
         target_precompile_headers(${target} ${ARGN})
         # Where <string> is precompiled, g++ 12 warns of std::string's own copying (its bug 105651).
         target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds;-Wno-stringop-overflow;-Wno-stringop-overread>)

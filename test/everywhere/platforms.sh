@@ -1,6 +1,6 @@
 # The platforms of `./dev everywhere`, which sources this file. It uses need, step and fail of ./dev.
 
-# name | Debian packages | compiler, for the table | how a program is run
+# name | Debian packages | compiler, for the table | how a program is run, or "objects" where it isn't even linked
 everywhere_platforms() {
     cat <<'TABLE'
 x86_64-gcc|g++ libhwy-dev|g++|
@@ -14,27 +14,65 @@ ppc64le|g++-powerpc64le-linux-gnu qemu-user-static|powerpc64le-linux-gnu-g++|qem
 riscv64|g++-riscv64-linux-gnu qemu-user-static|riscv64-linux-gnu-g++|qemu-riscv64-static
 s390x|g++-s390x-linux-gnu qemu-user-static|s390x-linux-gnu-g++|qemu-s390x-static
 mingw64|g++-mingw-w64-x86-64-posix wine64 wine|x86_64-w64-mingw32-g++-posix|wine
+clang-cl|clang-22 lld-22 llvm-22 libc++-22-dev-wasm32 mingw-w64-common|clang-cl-22|objects
 wasm32|clang-22 lld-22 llvm-22 libc++-22-dev-wasm32 libc++abi-22-dev-wasm32 libclang-rt-22-dev-wasm32 wasi-libc nodejs|clang++-22|node
 TABLE
 }
 
-# Builds test/everywhere for a platform, in build/everywhere/NAME. Those that are emulated take -O1, which compiles in half the time.
+# Builds test/everywhere for a platform, in build/everywhere/NAME. The first platform is built as a game builds the library. The
+# others precompile headers, and those that are emulated take -O1: both save compile time.
 everywhere_build() {
-    local name=$1 compiler=$2 folder=build/everywhere/$1 options=()
+    local name=$1 compiler=$2 folder=build/everywhere/$1 options=() targets=(golden)
+    mkdir -p build/everywhere/headers
+    ln -sfn /usr/include/glm /usr/include/hwy build/everywhere/headers/
     case $name in
-        x86_64-*-O0) options=(-D "CMAKE_CXX_COMPILER=${compiler% *}" -D "CMAKE_CXX_FLAGS_RELEASE=-O0") ;;
-        x86_64-*) options=(-D "CMAKE_CXX_COMPILER=$compiler") ;;
+        x86_64-*-O0) options=(-D "CMAKE_CXX_COMPILER=${compiler% *}" -D "CMAKE_CXX_FLAGS_RELEASE=-O0" -D ABUT_PRECOMPILE=ON) ;;
+        x86_64-gcc) options=(-D "CMAKE_CXX_COMPILER=$compiler") ;;
+        x86_64-*) options=(-D "CMAKE_CXX_COMPILER=$compiler" -D ABUT_PRECOMPILE=ON) ;;
+        clang-cl)
+            options=(-D "CMAKE_TOOLCHAIN_FILE=$PWD/test/everywhere/clang_cl/toolchain.cmake"
+                -D "ABUT_HEADERS=$PWD/build/everywhere/headers")
+            targets=(abut_core abut_bake abut_draw abut_c)
+            ;;
         *)
-            mkdir -p build/everywhere/headers
-            ln -sfn /usr/include/glm /usr/include/hwy build/everywhere/headers/
             options=(-D "CMAKE_TOOLCHAIN_FILE=$PWD/cmake/platforms/$name.cmake" -D "ABUT_HEADERS=$PWD/build/everywhere/headers"
-                -D "CMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG")
+                -D "CMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG" -D ABUT_PRECOMPILE=ON)
             ;;
     esac
     step "building $folder"
     cmake -S test/everywhere -B "$folder" -G Ninja --log-level=NOTICE -D CMAKE_BUILD_TYPE=Release \
-        -D CMAKE_CXX_COMPILER_LAUNCHER=ccache "${options[@]}" >&2 || fail "cmake stopped ($name)"
-    cmake --build "$folder" --parallel "$(nproc)" --target golden >&2 || fail "it doesn't build ($name)"
+        -D ABUT_WERROR=ON -D CMAKE_CXX_COMPILER_LAUNCHER=ccache "${options[@]}" >&2 || fail "cmake stopped ($name)"
+    # Without the sloppiness ccache passes over files that include precompiled headers.
+    CCACHE_DEPEND=1 CCACHE_SLOPPINESS=pch_defines,time_macros \
+        cmake --build "$folder" --parallel "$(nproc)" --target "${targets[@]}" >&2 || fail "it doesn't build ($name)"
+}
+
+# The instructions that must not be in our objects: multiply-add in one rounding, and those of vector units that are switched off.
+everywhere_forbidden() {
+    case $1 in
+        x86_64-* | i386 | mingw64 | clang-cl) echo 'vfn?m(add|sub)' ;;
+        aarch64) echo 'fn?m(add|sub)|fml[as]|fcmla|[^<]*[ \t,{]z[0-9]+[.][bhsd]' ;;
+        armv7) echo 'vfn?m[as]|v[a-z]+[.]f32[ \t]+[dq]' ;;
+        ppc64le) echo 'fn?m(add|sub)|xsn?m(add|sub)|xvn?m(add|sub)|vmaddfp|vnmsubfp' ;;
+        riscv64) echo 'fn?m(add|sub)|vset' ;;
+        s390x) echo 'm[as][ed]br?[ \t]|[vw]fn?m[as][sdx]b' ;;
+        wasm32) echo 'f(32x4|64x2)[.]relaxed' ;;
+    esac
+}
+
+# Names each function of a platform's objects that has such an instruction, and fails then.
+everywhere_check_code() {
+    local name=$1 folder=build/everywhere/$1 tool=${2%% *}
+    case $name in
+        x86_64-* | i386 | mingw64) tool=objdump ;;
+        clang-cl | wasm32) tool=llvm-objdump-22 ;;
+        *) tool=${tool%g++}objdump ;;
+    esac
+    find "$folder/abut" "$folder/CMakeFiles" \( -name '*.o' -o -name '*.obj' \) -exec "$tool" -dC --no-show-raw-insn {} + |
+        awk -v forbidden="^ *[0-9a-f]+:[ \t]+($(everywhere_forbidden "$name"))" '
+            /^[0-9a-f]+ <[^.].*>:$/ { name = $0; ++functions }
+            $0 ~ forbidden && name != last { print name "\n" $0 > "/dev/stderr"; last = name; found = 1 }
+            END { exit found || functions < 1000 }'
 }
 
 # Runs the program of a platform with arguments.
