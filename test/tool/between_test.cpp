@@ -67,7 +67,7 @@ TEST(Between, AThingIsMetThatIsPassedThrough) {
     add_motion(scene, test::add_unit_box(scene, "Train", {-10, 0, 0}), {{0, {-10, 0, 0}}, {5, {10, 0, 0}}});
     const CheckResult<3> result = check_between_keys(scene);
     ASSERT_EQ(result.findings.size(), 1u);
-    const Finding<3>& finding = result.findings[0];
+    const ContactFinding<3>& finding = result.findings[0];
     EXPECT_TRUE(finding.between);
     EXPECT_EQ(finding.first, 0u);
     EXPECT_EQ(finding.last, 0u);
@@ -155,7 +155,7 @@ TEST(Between, WheelsOnRailsAreFine) {
     EXPECT_TRUE(check_between_keys(scene, {.limits = {.allow = 1.1f * bump}}).findings.empty());
     const CheckResult<3> result = check_between_keys(scene, {.limits = {.allow = 0.5f * bump}});
     ASSERT_EQ(result.findings.size(), 8u) << "one for each gap between frames";
-    for (const Finding<3>& finding : result.findings) EXPECT_NEAR(finding.distance, -bump, 0.2f * bump);
+    for (const ContactFinding<3>& finding : result.findings) EXPECT_NEAR(finding.distance, -bump, 0.2f * bump);
 }
 
 TEST(Between, StepsJump) {
@@ -280,14 +280,14 @@ TEST(Between, MeshesTooAndOnesThatMoveTogetherAreLeftAlone) {
     add_motion(scene, train, {{0, {-9, 0.3, 0.2}}, {3, {9, 0.3, 0.2}}});
     const CheckResult<3> result = check_between_keys(scene);
     std::vector<std::pair<std::size_t, std::size_t>> pairs;
-    for (const Finding<3>& finding : result.findings)
+    for (const ContactFinding<3>& finding : result.findings)
         if (finding.between) pairs.emplace_back(finding.a, finding.b);
     EXPECT_EQ(pairs, (std::vector<std::pair<std::size_t, std::size_t>>{{0, 1}, {0, 2}}));
     EXPECT_EQ(result.findings.size(), 3u) << "and the load in the train, all the time";
 }
 
 // 3,000 boxes at one place once took 5 GB, to report 4,498,500 pairs.
-TEST(Findings, OfMoreThanWantedTheDeepestAreGiven) {
+TEST(ContactFindings, OfMoreThanWantedTheDeepestAreGiven) {
     Scene scene;
     for (int i = 0; i < 60; ++i) test::add_unit_box(scene, "Box " + std::to_string(100 + i), {0.01 * i, 0, 0});
     add_motion(scene, 59, {{0, {0.59, 0, 0}}, {1, {0.59, 0.001, 0}}, {2, {0, 0, 0}}});
@@ -297,12 +297,12 @@ TEST(Findings, OfMoreThanWantedTheDeepestAreGiven) {
     const CheckResult<3> some = check_between_keys(scene, {.limits = {}, .pairs = {}, .max_findings = 7});
     EXPECT_EQ(some.left_out, all.findings.size() - 7);
     ASSERT_EQ(some.findings.size(), 7u);
-    std::sort(all.findings.begin(), all.findings.end(), [](const Finding<3>& x, const Finding<3>& y) {
+    std::sort(all.findings.begin(), all.findings.end(), [](const ContactFinding<3>& x, const ContactFinding<3>& y) {
         return std::tuple(x.distance, x.a, x.b) < std::tuple(y.distance, y.a, y.b);
     });
     all.findings.resize(7);
     std::sort(all.findings.begin(), all.findings.end(),
-              [](const Finding<3>& x, const Finding<3>& y) { return std::tie(x.a, x.b) < std::tie(y.a, y.b); });
+              [](const ContactFinding<3>& x, const ContactFinding<3>& y) { return std::tie(x.a, x.b) < std::tie(y.a, y.b); });
     for (std::size_t i = 0; i < 7; ++i) {
         EXPECT_EQ(some.findings[i].a, all.findings[i].a);
         EXPECT_EQ(some.findings[i].b, all.findings[i].b);

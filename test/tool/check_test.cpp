@@ -24,7 +24,7 @@ TEST(Check, ReportsKnownDistances) {
     test::add_unit_box(scene, "c", {5, 0, 0});
     const CheckResult<3> result = check_scene(scene);
     ASSERT_EQ(result.findings.size(), 1u);
-    const Finding<3>& finding = result.findings[0];
+    const ContactFinding<3>& finding = result.findings[0];
     EXPECT_EQ(finding.a, 0u);
     EXPECT_EQ(finding.b, 1u);
     EXPECT_FLOAT_EQ(finding.distance, -0.25f);

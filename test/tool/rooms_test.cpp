@@ -79,7 +79,7 @@ TEST(Rooms, ExactlyTheOverlapsAreFound) {
             check<3>(objects, {0.0}, {.limits = {.allow = 0.0f}}, [](std::size_t, std::size_t) {});
         ASSERT_TRUE(result);
         std::map<std::pair<std::size_t, std::size_t>, float> found;
-        for (const Finding<3>& finding : result->findings) found[{finding.a, finding.b}] = -finding.distance;
+        for (const ContactFinding<3>& finding : result->findings) found[{finding.a, finding.b}] = -finding.distance;
         for (std::size_t i = 0; i < objects.size(); ++i)
             for (std::size_t j = i + 1; j < objects.size(); ++j) {
                 SCOPED_TRACE(objects[i].path + " " + objects[j].path);
@@ -174,7 +174,7 @@ TEST(Rooms, FlushTPrismsAreFound) {
         const Result<CheckResult<3>> result = check<3>(objects, {0.0}, {}, [](std::size_t, std::size_t) {});
         ASSERT_TRUE(result);
         ASSERT_EQ(result->findings.size(), x < 3 ? 1u : 0u) << x;
-        for (const Finding<3>& finding : result->findings) EXPECT_NEAR(finding.distance, x - 3, 1e-6);
+        for (const ContactFinding<3>& finding : result->findings) EXPECT_NEAR(finding.distance, x - 3, 1e-6);
     }
 }
 

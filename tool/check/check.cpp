@@ -28,7 +28,7 @@ private:
     PairFilter filter_;
     OverlappingPairs<D> overlapping_;
     SweptPairs<D> swept_pairs_;
-    Findings<D> findings_;
+    ContactFindings<D> findings_;
     std::vector<Aabb<D>> boxes_;
     std::uint64_t tested_ = 0;
 };

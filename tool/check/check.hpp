@@ -2,7 +2,7 @@
 
 // Checks which objects of a scene or a level touch, where, how deep and when.
 
-#include "tool/check/findings.hpp"
+#include "tool/check/contact_findings.hpp"
 #include "tool/check/pair_filter.hpp"
 #include "tool/objects/objects.hpp"
 #include "tool/shared/progress.hpp"
@@ -21,7 +21,7 @@ struct CheckOptions {
 
 template <int D>
 struct CheckResult {
-    std::vector<Finding<D>> findings;  ///< sorted by pair and time
+    std::vector<ContactFinding<D>> findings;  ///< sorted by pair and time
     std::uint64_t left_out = 0;        ///< count of findings beyond the maximum
     std::uint64_t tested = 0;          ///< count of pair tests, over all frames
     std::uint64_t swept = 0;           ///< count of pairs swept between frames, over all stages

@@ -19,7 +19,7 @@ constexpr std::size_t max_listed_pairs = 100;
 constexpr std::size_t max_listed_times = 5;
 
 template <int D>
-using PairFindings = std::vector<const Finding<D>*>;
+using PairFindings = std::vector<const ContactFinding<D>*>;
 
 template <int D>
 Vec<D> middle(const std::vector<Vec<D>>& points) {
@@ -29,18 +29,18 @@ Vec<D> middle(const std::vector<Vec<D>>& points) {
 }
 
 template <int D>
-bool collides(const Finding<D>& finding) {
+bool collides(const ContactFinding<D>& finding) {
     return finding.distance < 0;
 }
 
 // Findings grouped by pair; the pair with the deepest one first.
 template <int D>
-std::vector<PairFindings<D>> by_pair(const std::vector<Finding<D>>& findings) {
+std::vector<PairFindings<D>> by_pair(const std::vector<ContactFinding<D>>& findings) {
     std::map<std::pair<std::size_t, std::size_t>, PairFindings<D>> pairs;
-    for (const Finding<D>& finding : findings) pairs[{finding.a, finding.b}].push_back(&finding);
+    for (const ContactFinding<D>& finding : findings) pairs[{finding.a, finding.b}].push_back(&finding);
     std::vector<PairFindings<D>> result;
     for (auto& [pair, pair_findings] : pairs) {
-        std::sort(pair_findings.begin(), pair_findings.end(), [](const Finding<D>* x, const Finding<D>* y) {
+        std::sort(pair_findings.begin(), pair_findings.end(), [](const ContactFinding<D>* x, const ContactFinding<D>* y) {
             return std::tie(x->distance, x->first) < std::tie(y->distance, y->first);
         });
         result.push_back(std::move(pair_findings));
@@ -52,14 +52,14 @@ std::vector<PairFindings<D>> by_pair(const std::vector<Finding<D>>& findings) {
 }
 
 template <int D>
-std::string how(const Finding<D>& finding) {
+std::string how(const ContactFinding<D>& finding) {
     if (finding.inside) return fmt::format("one inside the other, {} to get out", number(-finding.distance));
     if (collides(finding)) return fmt::format("{} deep", number(-finding.distance));
     return fmt::format("{} apart", number(finding.distance));
 }
 
 template <int D>
-std::string when(const Report<D>& report, const Finding<D>& finding) {
+std::string when(const Report<D>& report, const ContactFinding<D>& finding) {
     if (finding.between)
         return fmt::format(" at {} s, between frames {} and {}: they touch at {} s (fraction {})",
                            number(finding.deepest_time), finding.first, finding.first + 1, number(finding.time),
@@ -74,7 +74,7 @@ std::string when(const Report<D>& report, const Finding<D>& finding) {
 }
 
 template <int D>
-std::string finding_line(const Report<D>& report, const Finding<D>& finding) {
+std::string finding_line(const Report<D>& report, const ContactFinding<D>& finding) {
     std::string line =
         fmt::format("        {}{}, near {}", how(finding), when(report, finding), vector(middle(finding.points)));
     // For a mesh the normal separates a single triangle and not the whole mesh.
@@ -87,7 +87,7 @@ std::string finding_line(const Report<D>& report, const Finding<D>& finding) {
 
 template <int D>
 std::string pair(const Report<D>& report, const PairFindings<D>& pair_findings, std::size_t rank) {
-    const Finding<D>& worst = *pair_findings.front();
+    const ContactFinding<D>& worst = *pair_findings.front();
     std::string text =
         fmt::format("{:4}. {}  and  {}\n", rank, report.objects[worst.a].path, report.objects[worst.b].path);
     for (std::size_t i = 0; i < pair_findings.size() && i < max_listed_times; ++i)

@@ -40,7 +40,7 @@ std::string text_report(const Report<D>& report, const std::string& scene_name);
 
 /// The time of a contact between frames, as a fraction from its frame to the next one.
 template <int D>
-double fraction(const Report<D>& report, const Finding<D>& finding) {
+double fraction(const Report<D>& report, const ContactFinding<D>& finding) {
     const double from = report.times[finding.first], to = report.times[finding.first + 1];
     return (finding.time - from) / (to - from);
 }

@@ -8,7 +8,7 @@ namespace abut::tool {
 namespace {
 
 template <int D>
-Json contact(const Report<D>& report, const Finding<D>& finding) {
+Json contact(const Report<D>& report, const ContactFinding<D>& finding) {
     Json points = Json::array();
     for (const Vec<D>& point : finding.points) points.push_back(numbers(point));
     Json result = {{"a", report.objects[finding.a].path},
@@ -47,7 +47,7 @@ bool read_known(const Json& json, KnownFinding& known) {
 template <int D>
 std::string json_report(const Report<D>& report) {
     Json contacts = Json::array();
-    for (const Finding<D>& finding : report.result.findings) contacts.push_back(contact(report, finding));
+    for (const ContactFinding<D>& finding : report.result.findings) contacts.push_back(contact(report, finding));
     Json json = {{"objects", report.objects.size()},
                  {"solids", report.objects.count_solids()},
                  {not_solids<D>, report.objects.size() - report.objects.count_solids()},

@@ -64,7 +64,7 @@ struct PosedObject {
 template <int D>
 void SweptPairs<D>::add_contact(const Pair& pair, double first, double time, PairContact<D>&& contact) {
     const auto [entry, is_new] = contacts_.try_emplace(pair);
-    Finding<D>& finding = entry->second;
+    ContactFinding<D>& finding = entry->second;
     if (is_new) {
         finding.a = pair.first;
         finding.b = pair.second;
@@ -119,7 +119,7 @@ void SweptPairs<D>::test(const Pair& pair, const Stage<D>& stage, float clearanc
 }
 
 template <int D>
-std::optional<Problem> SweptPairs<D>::test(const Stage<D>& stage, const Findings<D>& at_first) {
+std::optional<Problem> SweptPairs<D>::test(const Stage<D>& stage, const ContactFindings<D>& at_first) {
     if (std::find(stage.parts.begin(), stage.parts.end(), StageMotion::moves) == stage.parts.end()) return std::nullopt;
     boxes_.resize(objects_.size());
     for (std::size_t i = 0; i < boxes_.size(); ++i)
@@ -138,7 +138,7 @@ std::optional<Problem> SweptPairs<D>::test(const Stage<D>& stage, const Findings
 }
 
 template <int D>
-void SweptPairs<D>::end(std::size_t first, Findings<D>& findings) {
+void SweptPairs<D>::end(std::size_t first, ContactFindings<D>& findings) {
     for (auto& [pair, finding] : contacts_) {
         finding.first = finding.last = finding.deepest = first;
         if (!findings.has(pair)) findings.add(std::move(finding));

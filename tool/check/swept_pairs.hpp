@@ -2,7 +2,7 @@
 
 // Contacts between frames, by continuous sweeps.
 
-#include "tool/check/findings.hpp"
+#include "tool/check/contact_findings.hpp"
 
 #include <cstdint>
 #include <map>
@@ -20,11 +20,11 @@ public:
         : objects_(objects), limits_(limits), overlapping_(selection) {}
 
     /// Sweeps all pairs through a stage; `at_first` has the contacts of the frame before it.
-    std::optional<Problem> test(const Stage<D>& stage, const Findings<D>& at_first);
+    std::optional<Problem> test(const Stage<D>& stage, const ContactFindings<D>& at_first);
 
     /// Adds contacts found since the frame `first` to `findings`, which is at the next frame by now. Pairs in contact
     /// there are skipped.
-    void end(std::size_t first, Findings<D>& findings);
+    void end(std::size_t first, ContactFindings<D>& findings);
 
     /// Count of pairs swept so far.
     std::uint64_t swept() const { return swept_; }
@@ -37,7 +37,7 @@ private:
     const Limits& limits_;
     OverlappingPairs<D> overlapping_;
     std::vector<Aabb<D>> boxes_;
-    std::map<Pair, Finding<D>> contacts_;
+    std::map<Pair, ContactFinding<D>> contacts_;
     std::uint64_t swept_ = 0;
 };
 

@@ -40,11 +40,11 @@ std::optional<Problem> check_patterns(const CheckRequest& request, const Objects
 // Removes findings of the baseline, and returns their count. A finding is new if the pair touches at other frames, or
 // deeper by more than the allowed depth.
 template <int D>
-std::size_t remove_known(std::vector<Finding<D>>& findings, const std::vector<KnownFinding>& known,
+std::size_t remove_known(std::vector<ContactFinding<D>>& findings, const std::vector<KnownFinding>& known,
                          const Objects<D>& objects) {
     std::map<std::pair<std::string, std::string>, std::vector<const KnownFinding*>> of_pair;
     for (const KnownFinding& old : known) of_pair[{old.a, old.b}].push_back(&old);
-    return std::erase_if(findings, [&](const Finding<D>& finding) {
+    return std::erase_if(findings, [&](const ContactFinding<D>& finding) {
         const auto olds = of_pair.find({objects[finding.a].path, objects[finding.b].path});
         return olds != of_pair.end() &&
                std::any_of(olds->second.begin(), olds->second.end(), [&](const KnownFinding* old) {

@@ -17,7 +17,7 @@ namespace abut::tool {
 /// A contact of one pair over one unbroken interval of frames, at its deepest time; or between two consecutive frames
 /// at neither of which the pair is in contact.
 template <int D>
-struct Finding {
+struct ContactFinding {
     std::size_t a = 0, b = 0;                                 ///< objects sorted by path; a < b
     std::size_t first = 0, last = 0, deepest = 0;             ///< frames
     float distance = std::numeric_limits<float>::infinity();  ///< signed
@@ -32,9 +32,9 @@ struct Finding {
 /// Joins contacts of consecutive frames to intervals. Returns at most `max_findings`, the deepest ones, and stores
 /// details of at most twice as many.
 template <int D>
-class Findings {
+class ContactFindings {
 public:
-    explicit Findings(std::size_t max_findings) : max_findings_(max_findings) {}
+    explicit ContactFindings(std::size_t max_findings) : max_findings_(max_findings) {}
 
     // Per frame: add or extend pairs in sorted order, then end the frame.
     void add(const Pair& pair, std::size_t frame, PairContact<D>&& contact);
@@ -43,13 +43,13 @@ public:
     void end_frame();
 
     /// Adds a contact between this frame and the next one.
-    void add(Finding<D>&& between);
+    void add(ContactFinding<D>&& between);
 
     /// True if the pair was in contact at the last frame.
     bool has(const Pair& pair) const;
 
     /// Returns all findings, sorted by pair and time. Call once, at the end.
-    std::vector<Finding<D>> take();
+    std::vector<ContactFinding<D>> take();
     /// Count of findings beyond the maximum.
     std::uint64_t left_out() const { return left_out_; }
 
@@ -59,14 +59,14 @@ private:
         Pair pair;
         std::uint32_t first = 0, last = 0;
         float distance = std::numeric_limits<float>::infinity();
-        std::unique_ptr<Finding<D>> details;  ///< null if at least `max_findings` are deeper at present
+        std::unique_ptr<ContactFinding<D>> details;  ///< null if at least `max_findings` are deeper at present
     };
 
     /// Orders by depth, deepest first.
     using Rank = std::tuple<float, Pair, std::size_t>;
 
     static Rank rank(const Open& open) { return {open.distance, open.pair, open.first}; }
-    static Rank rank(const Finding<D>& finding) {
+    static Rank rank(const ContactFinding<D>& finding) {
         return {finding.distance,
                 {static_cast<std::uint32_t>(finding.a), static_cast<std::uint32_t>(finding.b)},
                 finding.first};
@@ -78,7 +78,7 @@ private:
     std::size_t max_findings_;
     std::vector<Open> open_, next_;  ///< contacts of the last frame and of the current frame; sorted by pair
     std::size_t next_open_ = 0;      ///< first contact of the last frame that isn't processed yet
-    std::vector<Finding<D>> closed_;
+    std::vector<ContactFinding<D>> closed_;
     std::size_t count_details_ = 0;
     Rank last_ = {
         std::numeric_limits<float>::infinity(), {}, 0};  ///< findings that rank later are not among the deepest

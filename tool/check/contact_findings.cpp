@@ -1,4 +1,4 @@
-#include "tool/check/findings.hpp"
+#include "tool/check/contact_findings.hpp"
 
 #include <algorithm>
 #include <tuple>
@@ -8,24 +8,24 @@ namespace abut::tool {
 
 // Closes contacts of the last frame whose pairs precede this one.
 template <int D>
-void Findings<D>::close_until(const Pair& pair) {
+void ContactFindings<D>::close_until(const Pair& pair) {
     while (next_open_ < open_.size() && open_[next_open_].pair < pair) close(std::move(open_[next_open_++]));
 }
 
 template <int D>
-void Findings<D>::close(Open&& open) {
+void ContactFindings<D>::close(Open&& open) {
     if (!open.details) {
         ++left_out_;
         return;
     }
-    Finding<D>& finding = *open.details;
+    ContactFinding<D>& finding = *open.details;
     finding.first = open.first;
     finding.last = open.last;
     closed_.push_back(std::move(finding));
 }
 
 template <int D>
-void Findings<D>::extend(const Pair& pair, std::size_t frame) {
+void ContactFindings<D>::extend(const Pair& pair, std::size_t frame) {
     close_until(pair);
     if (next_open_ == open_.size() || open_[next_open_].pair != pair) return;
     next_.push_back(std::move(open_[next_open_++]));
@@ -33,7 +33,7 @@ void Findings<D>::extend(const Pair& pair, std::size_t frame) {
 }
 
 template <int D>
-void Findings<D>::add(const Pair& pair, std::size_t frame, PairContact<D>&& contact) {
+void ContactFindings<D>::add(const Pair& pair, std::size_t frame, PairContact<D>&& contact) {
     extend(pair, frame);
     const bool is_new = next_.empty() || next_.back().pair != pair;
     if (is_new) {
@@ -46,10 +46,10 @@ void Findings<D>::add(const Pair& pair, std::size_t frame, PairContact<D>&& cont
     open.distance = contact.distance;
     if (rank(open) > last_) return;
     if (!open.details) {
-        open.details = std::make_unique<Finding<D>>();
+        open.details = std::make_unique<ContactFinding<D>>();
         ++count_details_;
     }
-    Finding<D>& finding = *open.details;
+    ContactFinding<D>& finding = *open.details;
     finding.a = pair.first;
     finding.b = pair.second;
     finding.deepest = frame;
@@ -62,7 +62,7 @@ void Findings<D>::add(const Pair& pair, std::size_t frame, PairContact<D>&& cont
 }
 
 template <int D>
-void Findings<D>::end_frame() {
+void ContactFindings<D>::end_frame() {
     for (; next_open_ < open_.size(); ++next_open_) close(std::move(open_[next_open_]));
     open_.clear();
     open_.swap(next_);
@@ -70,7 +70,7 @@ void Findings<D>::end_frame() {
 }
 
 template <int D>
-void Findings<D>::add(Finding<D>&& between) {
+void ContactFindings<D>::add(ContactFinding<D>&& between) {
     if (rank(between) > last_) {
         ++left_out_;
         return;
@@ -80,7 +80,7 @@ void Findings<D>::add(Finding<D>&& between) {
 }
 
 template <int D>
-bool Findings<D>::has(const Pair& pair) const {
+bool ContactFindings<D>::has(const Pair& pair) const {
     const auto found = std::lower_bound(open_.begin(), open_.end(), pair,
                                         [](const Open& open, const Pair& wanted) { return open.pair < wanted; });
     return found != open_.end() && found->pair == pair;
@@ -88,7 +88,7 @@ bool Findings<D>::has(const Pair& pair) const {
 
 // Discards the details of all but the deepest findings.
 template <int D>
-void Findings<D>::prune() {
+void ContactFindings<D>::prune() {
     std::vector<Rank> ranks;
     ranks.reserve(count_details_);
     const auto each_open = [&](auto visit) {
@@ -96,13 +96,13 @@ void Findings<D>::prune() {
             for (Open& open : *opens)
                 if (open.details) visit(open);
     };
-    for (const Finding<D>& finding : closed_) ranks.push_back(rank(finding));
+    for (const ContactFinding<D>& finding : closed_) ranks.push_back(rank(finding));
     each_open([&](Open& open) { ranks.push_back(rank(open)); });
     const auto last = ranks.begin() + static_cast<std::ptrdiff_t>(max_findings_ - 1);
     std::nth_element(ranks.begin(), last, ranks.end());
     last_ = *last;
 
-    left_out_ += std::erase_if(closed_, [&](const Finding<D>& finding) { return rank(finding) > last_; });
+    left_out_ += std::erase_if(closed_, [&](const ContactFinding<D>& finding) { return rank(finding) > last_; });
     each_open([&](Open& open) {
         if (rank(open) > last_) open.details.reset();
     });
@@ -111,21 +111,21 @@ void Findings<D>::prune() {
 }
 
 template <int D>
-std::vector<Finding<D>> Findings<D>::take() {
+std::vector<ContactFinding<D>> ContactFindings<D>::take() {
     end_frame();
     if (closed_.size() > max_findings_) {
         std::sort(closed_.begin(), closed_.end(),
-                  [](const Finding<D>& x, const Finding<D>& y) { return rank(x) < rank(y); });
+                  [](const ContactFinding<D>& x, const ContactFinding<D>& y) { return rank(x) < rank(y); });
         left_out_ += closed_.size() - max_findings_;
         closed_.resize(max_findings_);
     }
-    std::sort(closed_.begin(), closed_.end(), [](const Finding<D>& x, const Finding<D>& y) {
+    std::sort(closed_.begin(), closed_.end(), [](const ContactFinding<D>& x, const ContactFinding<D>& y) {
         return std::tie(x.a, x.b, x.first, x.between) < std::tie(y.a, y.b, y.first, y.between);
     });
     return std::move(closed_);
 }
 
-template class Findings<2>;
-template class Findings<3>;
+template class ContactFindings<2>;
+template class ContactFindings<3>;
 
 }  // namespace abut::tool
