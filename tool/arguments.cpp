@@ -46,6 +46,10 @@ Result<std::size_t> parse_frames(const std::string& text) {
     return parse_whole<std::size_t>(text, 1, max_frames);
 }
 
+Result<std::size_t> parse_threads(const std::string& text) {
+    return parse_whole<std::size_t>(text, 1, max_threads);
+}
+
 template <int D>
 Result<Vec<D>> parse_point(const std::string& text) {
     Vec<D> point{};
@@ -147,6 +151,28 @@ Result<PairPattern> parse_pair(const std::string& text) {
         colon + 1 == text.size())
         return parse_problem(text, "two patterns with one ':' between them (a ':' in a name is matched by '?')");
     return PairPattern{text.substr(0, colon), text.substr(colon + 1)};
+}
+
+Result<IgnorePattern> parse_ignore(const std::string& text) {
+    IgnorePattern pattern;
+    pattern.text = text;
+    std::string objects = text;
+    const std::size_t blank = text.find(' ');
+    if (blank != std::string::npos && text.starts_with("ABUT") && names_any_rule(text.substr(0, blank))) {
+        pattern.code = text.substr(0, blank);
+        objects = text.substr(blank + 1);
+    }
+    if (objects.empty() || objects.find(':') == std::string::npos) {
+        pattern.a = objects;
+        if (!objects.empty()) return pattern;
+    } else if (const Result<PairPattern> pair = parse_pair(objects)) {
+        pattern.a = pair->a;
+        pattern.b = pair->b;
+        return pattern;
+    }
+    return parse_problem(text,
+                         "one pattern, or two with one ':' between them (a ':' in a name is matched by '?'), after "
+                         "a code and a blank or alone");
 }
 
 }  // namespace abut::tool

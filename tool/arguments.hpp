@@ -2,8 +2,7 @@
 
 // Parsers for the values of command line options.
 
-#include "tool/check/check.hpp"
-#include "tool/faults/faults.hpp"
+#include "tool/check/settings.hpp"
 #include "tool/verbs.hpp"
 #include <abut/math/result.hpp>
 
@@ -20,6 +19,11 @@ inline constexpr std::size_t max_frames = 1'000'000;
 
 /// A number of frames, 1 to `max_frames`.
 Result<std::size_t> parse_frames(const std::string& text);
+
+inline constexpr std::size_t max_threads = 1024;
+
+/// A number of threads, 1 to `max_threads`.
+Result<std::size_t> parse_threads(const std::string& text);
 
 /// X,Y or X,Y,Z: finite numbers, one per dimension.
 template <int D>
@@ -60,5 +64,8 @@ Result<UpDirection> parse_up(const std::string& text);
 
 /// Two glob patterns separated by one ':'.
 Result<PairPattern> parse_pair(const std::string& text);
+
+/// [CODE ]A[:B]: one glob pattern or two with one ':' between them, and before them a code such as ABUT101 and a blank.
+Result<IgnorePattern> parse_ignore(const std::string& text);
 
 }  // namespace abut::tool

@@ -5,9 +5,11 @@
 #include "tool/verbs.hpp"
 
 #include <cstdio>
+#include <map>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -24,12 +26,12 @@ constexpr const char* files =
     "3D: glTF 2.0, or any format that Assimp reads; 2D: a Tiled map (.tmx, .tmj) or a drawing (.svg)";
 
 // Options of reading files. Verbs that repair meshes have no --strict.
-void add_options(CLI::App& verb, FileOptions& options, bool can_be_strict) {
-    verb.add_flag("--allow-outside", options.allow_outside,
+void add_options(CLI::App& verb, bool& allow_outside, bool* be_strict) {
+    verb.add_flag("--allow-outside", allow_outside,
                   "Allow references to files outside of the file's own folder, such as ../shared/a.bin");
-    if (!can_be_strict) return;
+    if (be_strict == nullptr) return;
     CLI::Option* strict =
-        verb.add_flag("--strict", options.strict,
+        verb.add_flag("--strict", *be_strict,
                       "Reject a file with a triangle of zero area; by default such triangles are left "
                       "out and counted");
     // Accepted for scripts of earlier versions: it is the default now. --help names it nowhere.
@@ -37,59 +39,116 @@ void add_options(CLI::App& verb, FileOptions& options, bool can_be_strict) {
     strict->remove_excludes(skip);
 }
 
-// Arguments of `abut check`; numbers and patterns are still text.
+void add_options(CLI::App& verb, FileOptions& options, bool can_be_strict) {
+    add_options(verb, options.allow_outside, can_be_strict ? &options.strict : nullptr);
+}
+
+// Options that `abut.toml` may have too, as text; also those of `abut init`.
+struct SettingArguments {
+    std::map<std::string, std::vector<std::string>> texts;
+    bool strict = false, allow_outside = false, warnings_as_errors = false;
+
+    Settings all() const {
+        Settings settings;
+        for (const auto& [name, values] : texts)
+            for (const std::string& text : values) settings[name].push_back({text, "--" + name});
+        for (const auto& [name, is_given] : {std::pair("strict", strict), std::pair("allow-outside", allow_outside),
+                                             std::pair("warnings-as-errors", warnings_as_errors)})
+            if (is_given) settings[name] = {{"true", std::string("--") + name}};
+        return settings;
+    }
+};
+
+void add_options(CLI::App& verb, SettingArguments& arguments) {
+    const auto one = [&](const char* name, const char* type, const std::string& help) {
+        verb.add_option("--" + std::string(name), arguments.texts[name], help)->type_name(type)->expected(1);
+    };
+    const auto many = [&](const char* name, const char* type, const std::string& help) {
+        verb.add_option("--" + std::string(name), arguments.texts[name], help)
+            ->type_name(type)
+            ->allow_extra_args(false);
+    };
+    one("clearance", "D", "Report also pairs closer than D that don't touch");
+    one("allow", "DEPTH", "Ignore depths up to DEPTH; default 1e-3 of the smaller object's size");
+    one("baseline", "OLD.json",
+        "Report only findings that this earlier --json report doesn't have, and what it has and is gone");
+    one("frames", "N",
+        "Test N evenly spaced frames; default: the file's key times, at most 30 per second. Between frames, pairs are "
+        "tested by continuous sweeps");
+    many("pairs", "A:B",
+         "Only pairs of an object that matches A and one that matches B, by path, name or class, with * and ?");
+    many("only", "KIND", "Only findings of this kind or code, such as contact, leak, ABUT101 or ABUT6*");
+    many("no", "KIND", "No findings of this kind or code. The kinds are " + kind_names());
+    many("severity", "KIND=LEVEL", "How severe a kind or a code is: error, warning or off");
+    many("ignore", "[CODE ]A[:B]", "No findings between objects that match A and B, or about one that matches A");
+    many("solid", "PATTERN",
+         "2D: objects and layers that collide; default: those whose layer, class or properties say collision, solid, "
+         "...; if none does, all");
+    many("body", "PATTERN", "What is at or below each node that matches is one body, without contacts in it");
+    many("spawn", "PATTERN",
+         "Spawn points: nodes or points by path, name or class, with * and ?. Default: those with 'spawn', "
+         "'player_start', 'playerstart' or 'player start' in their name or class, in any case");
+    one("character", "RADIUS,HEIGHT",
+        "The character: a capsule with its lowest point at the spawn; a ball if --up is none. It must fit there, and "
+        "through every passage");
+    one("up", "AXIS",
+        "The up direction: x, -x, y, -y, z, -z or none. Default: y in 3D, none in 2D; a level seen from the side has "
+        "-y, as y points down in its file");
+    one("gap", "[LEAST,]WIDTH",
+        "Report passages narrower than WIDTH and wider than LEAST, default WIDTH / 10; by default those too narrow "
+        "for the --character");
+    many("closed", "PATTERN",
+         "3D: objects whose meshes must be watertight; by default small holes of all meshes are warnings");
+    verb.add_flag("--warnings-as-errors", arguments.warnings_as_errors, "Exit with 1 for warnings too");
+    add_options(verb, arguments.allow_outside, &arguments.strict);
+}
+
+// Arguments of `abut check`.
 struct CheckArguments {
     CheckRequest request;
-    std::optional<std::string> clearance, allow, frames, character, up, gap;
-    std::vector<std::string> pairs;
+    SettingArguments settings;
+    std::optional<std::string> threads;
+    bool no_config = false;
 };
 
 void add_options(CLI::App& verb, CheckArguments& arguments) {
-    verb.add_option("SCENE", arguments.request.scene, files)->required();
-    verb.add_option("--clearance", arguments.clearance, "Report also pairs closer than D that don't touch")
-        ->type_name("D");
-    verb.add_option("--allow", arguments.allow, "Ignore depths up to DEPTH; default 1e-3 of the smaller object's size")
-        ->type_name("DEPTH");
-    verb.add_option("--baseline", arguments.request.baseline,
-                    "Report only findings that this earlier --json report doesn't have")
-        ->type_name("OLD.json");
-    verb.add_option("--frames", arguments.frames,
-                    "Test N evenly spaced frames; default: the file's key times, at most 30 per second. Between "
-                    "frames, pairs are tested by continuous sweeps")
+    CheckRequest& request = arguments.request;
+    verb.add_option("SCENE", request.scenes,
+                    std::string(files) + "; or a folder with such files; or - for a list of them on stdin")
+        ->required();
+    add_options(verb, arguments.settings);
+    CLI::Option* config = verb.add_option("--config", request.config,
+                                          "Read options from FILE. Default: the abut.toml in the scene's folder, or "
+                                          "else in the nearest folder above it")
+                              ->type_name("FILE");
+    verb.add_flag("--no-config", arguments.no_config, "Read no abut.toml")->excludes(config);
+    verb.add_option("-j,--threads", arguments.threads,
+                    "Threads to compute with; default: one for each core. The report is the same with any number")
         ->type_name("N");
-    verb.add_option("--pairs", arguments.pairs,
-                    "Only pairs of an object that matches A and one that matches B, by path or name, with * and ?")
-        ->type_name("A:B")
-        ->allow_extra_args(false);
-    verb.add_option("--spawn", arguments.request.faults.spawns,
-                    "Spawn points: nodes or points by path, name or class, with * and ?. Default: those "
-                    "with 'spawn', 'player_start', 'playerstart' or 'player start' in their name or class, in any case")
-        ->type_name("PATTERN")
-        ->allow_extra_args(false);
-    verb.add_option("--character", arguments.character,
-                    "The character: a capsule with its lowest point at the spawn; a ball if --up is none. It must "
-                    "fit there, and through every passage")
-        ->type_name("RADIUS,HEIGHT");
-    verb.add_option("--up", arguments.up,
-                    "The up direction: x, -x, y, -y, z, -z or none. Default: y in 3D, none in 2D; a level seen "
-                    "from the side has -y, as y points down in its file")
-        ->type_name("AXIS");
-    verb.add_option("--gap", arguments.gap,
-                    "Report passages narrower than WIDTH and wider than LEAST, default WIDTH / 10; by default "
-                    "those too narrow for the --character")
-        ->type_name("[LEAST,]WIDTH");
-    verb.add_option("--closed", arguments.request.faults.closed,
-                    "3D: objects whose meshes must be watertight; by default only small holes of all meshes are "
-                    "reported")
-        ->type_name("PATTERN")
-        ->allow_extra_args(false);
+    verb.add_option("--sarif", request.sarif, "Write the findings to FILE as SARIF 2.1.0 too")->type_name("FILE");
+    verb.add_option("--junit", request.junit, "Write the findings to FILE as JUnit's XML too")->type_name("FILE");
+    CLI::Option* github =
+        verb.add_flag("--github", request.github, "Print annotations for GitHub's workflows before the text");
+    verb.add_flag("--json", request.json, "Print one JSON object instead of text")->excludes(github);
     verb.footer(
         "At the first frame it also reports spawns that are inside an object, below a ground or above nothing; "
         "passages that are too narrow (--gap); duplicates; and in 3D leaks: holes, cracks, non-manifold edges, and "
-        "triangles of the wrong orientation. --pairs restricts these to gaps and duplicate "
-        "objects, and to what --spawn and --closed select.");
-    verb.add_flag("--json", arguments.request.json, "Print one JSON object instead of text");
-    add_options(verb, arguments.request.files, true);
+        "triangles of the wrong orientation. --pairs restricts these to gaps and duplicate objects, and to what "
+        "--spawn and --closed select. The exit status of several files is the worst one.");
+}
+
+// Arguments of `abut init`.
+struct InitArguments {
+    InitRequest request;
+    SettingArguments settings;
+};
+
+void add_options(CLI::App& verb, InitArguments& arguments) {
+    verb.add_option("SCENE", arguments.request.scene, files)->required();
+    add_options(verb, arguments.settings);
+    verb.footer(
+        "Writes abut.toml beside the scene, or adds a section to it: the options given here, and patterns that ignore "
+        "all that is found now. So `abut check` is clean, and reports what is new.");
 }
 
 // Arguments of `abut cast`; numbers are still text.
@@ -271,19 +330,18 @@ std::optional<std::string> parse_option(const char* option, const std::optional<
 }
 
 Result<ExitCode> run_check(CheckArguments& arguments) {
-    CheckOptions& options = arguments.request.options;
-    std::optional<std::string> problem =
-        parse_option("--clearance", arguments.clearance, parse_length, options.limits.clearance);
-    if (!problem) problem = parse_option("--allow", arguments.allow, parse_length, options.limits.allow);
-    if (!problem) problem = parse_option("--frames", arguments.frames, parse_frames, arguments.request.frames);
-    FaultOptions& faults = arguments.request.faults;
-    if (!problem) problem = parse_option("--character", arguments.character, parse_character, faults.character);
-    if (!problem) problem = parse_option("--up", arguments.up, parse_up, faults.up);
-    if (!problem) problem = parse_option("--gap", arguments.gap, parse_gap, faults.gap);
-    for (const std::string& text : arguments.pairs)
-        if (!problem) problem = parse_option("--pairs", text, parse_pair, options.pairs.emplace_back());
-    if (problem) return Problem{ProblemCode::bad_argument, *problem};
-    return run_check(arguments.request);
+    CheckRequest& request = arguments.request;
+    if (const std::optional<std::string> problem =
+            parse_option("--threads", arguments.threads, parse_threads, request.threads))
+        return Problem{ProblemCode::bad_argument, *problem};
+    request.settings = arguments.settings.all();
+    if (arguments.no_config) request.config = "";
+    return run_check(request);
+}
+
+Result<ExitCode> run_init(InitArguments& arguments) {
+    arguments.request.settings = arguments.settings.all();
+    return run_init(arguments.request);
 }
 
 Result<ExitCode> run_cast(CastArguments& arguments) {
@@ -351,6 +409,9 @@ int run(int count, char** arguments) {
         "check",
         "Reports which objects of a scene or a level touch, where, how deep and when, and other faults of the level");
     add_options(check_verb, check);
+    InitArguments init;
+    CLI::App& init_verb = *app.add_subcommand("init", "Writes an abut.toml that ignores what abut check finds now");
+    add_options(init_verb, init);
     CastArguments cast;
     CLI::App& cast_verb =
         *app.add_subcommand("cast", "Reports the objects that a ray hits, with or without reflections");
@@ -386,7 +447,8 @@ int run(int count, char** arguments) {
     }
     const bool checks = check_verb.parsed();
     const bool bakes = field_verb.parsed();
-    const std::string& file = checks                    ? check.request.scene
+    const std::string& file = checks                    ? check.request.scenes.front()
+                              : init_verb.parsed()      ? init.request.scene
                               : cast_verb.parsed()      ? cast.request.scene
                               : hull_verb.parsed()      ? hull.request.mesh
                               : decompose_verb.parsed() ? decompose.request.mesh
@@ -401,6 +463,7 @@ int run(int count, char** arguments) {
     exit_when_out_of_memory(too_large);
     try {
         const Result<ExitCode> code = checks                    ? run_check(check)
+                                      : init_verb.parsed()      ? run_init(init)
                                       : cast_verb.parsed()      ? run_cast(cast)
                                       : hull_verb.parsed()      ? run_hull(hull)
                                       : decompose_verb.parsed() ? run_decompose(decompose)

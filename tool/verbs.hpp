@@ -3,8 +3,7 @@
 // The verbs of the tool. Each prints its report on stdout and returns the exit code. A Problem's message is the line
 // for stderr, without the prefix "abut: ".
 
-#include "tool/check/check.hpp"
-#include "tool/faults/faults.hpp"
+#include "tool/check/settings.hpp"
 #include "tool/shared/files.hpp"
 #include <abut/math/result.hpp>
 #include <abut/math/vec.hpp>
@@ -21,16 +20,23 @@ namespace abut::tool {
 enum ExitCode : int { fine = 0, found = 1, unusable = 2 };
 
 struct CheckRequest {
-    std::string scene;
-    std::optional<std::string> baseline;
-    std::optional<std::size_t> frames;  ///< default: the file's key times
-    bool json = false;
-    FileOptions files;
-    CheckOptions options;
-    FaultOptions faults;  ///< `allow` and `pairs` are taken from the other options
+    std::vector<std::string> scenes;    ///< files, folders, and "-" for a list on stdin
+    Settings settings;                  ///< of the command line
+    std::optional<std::string> config;  ///< instead of the abut.toml of each file; empty: none
+    bool json = false, github = false;
+    std::optional<std::string> sarif, junit;  ///< files to write
+    std::size_t threads = 0;                  ///< 0: one for each core
 };
 
 Result<ExitCode> run_check(const CheckRequest& request);
+
+struct InitRequest {
+    std::string scene;
+    Settings settings;
+};
+
+/// Writes an abut.toml beside the scene, with these settings, that ignores what is found now.
+Result<ExitCode> run_init(const InitRequest& request);
 
 struct CastRequest {
     std::string scene;

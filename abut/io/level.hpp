@@ -45,8 +45,10 @@ struct LevelObject {
     std::string type;  ///< the class that the author assigned
     std::vector<LevelProperty> properties;
     LevelShape shape;
-    Pose2 pose;           ///< places the shape: at(shape, pose)
-    bool filled = false;  ///< for a closed Chain or Outlines: the enclosed area belongs to the object
+    Pose2 pose;                 ///< places the shape: at(shape, pose)
+    bool filled = false;        ///< for a closed Chain or Outlines: the enclosed area belongs to the object
+    bool is_layer = false;      ///< a tile layer of a map
+    bool assumed_full = false;  ///< a tile layer of a map without collision shapes, in which every tile counts as full
 };
 
 /// A named point, such as a spawn point.

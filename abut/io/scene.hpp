@@ -35,6 +35,7 @@ struct SceneNode {
     std::uint32_t parent = no_parent;
     glm::dmat4 local{1.0};                  ///< transform to the parent's space; any affine map
     std::vector<std::uint32_t> geometries;  ///< indices into Scene::geometries
+    bool is_body = false;  ///< a rigid body or a skinned character: what is at and below it is one body
 };
 
 enum class Interpolation : std::uint8_t { linear, step, cubic };

@@ -301,8 +301,9 @@ TEST(ContactFindings, OfMoreThanWantedTheDeepestAreGiven) {
         return std::tuple(x.distance, x.a, x.b) < std::tuple(y.distance, y.a, y.b);
     });
     all.findings.resize(7);
-    std::sort(all.findings.begin(), all.findings.end(),
-              [](const ContactFinding<3>& x, const ContactFinding<3>& y) { return std::tie(x.a, x.b) < std::tie(y.a, y.b); });
+    std::sort(all.findings.begin(), all.findings.end(), [](const ContactFinding<3>& x, const ContactFinding<3>& y) {
+        return std::tie(x.a, x.b) < std::tie(y.a, y.b);
+    });
     for (std::size_t i = 0; i < 7; ++i) {
         EXPECT_EQ(some.findings[i].a, all.findings[i].a);
         EXPECT_EQ(some.findings[i].b, all.findings[i].b);

@@ -2,6 +2,7 @@
 
 #include "tool/check/swept_pairs.hpp"
 
+#include <optional>
 #include <utility>
 
 namespace abut::tool {
@@ -13,9 +14,10 @@ public:
     Checker(Objects<D>& objects, const CheckOptions& options)
         : objects_(objects),
           options_(options),
-          filter_(objects, options.pairs),
+          filter_(objects, options.pairs, options.bodies),
+          workers_(options.threads),
           overlapping_(filter_),
-          swept_pairs_(objects, options.limits, filter_),
+          swept_pairs_(objects, options.limits, filter_, workers_),
           findings_(options.max_findings) {}
 
     std::optional<Problem> test(std::size_t frame);
@@ -26,10 +28,12 @@ private:
     Objects<D>& objects_;
     const CheckOptions& options_;
     PairFilter filter_;
+    Workers workers_;
     OverlappingPairs<D> overlapping_;
     SweptPairs<D> swept_pairs_;
     ContactFindings<D> findings_;
     std::vector<Aabb<D>> boxes_;
+    std::vector<std::optional<PairContact<D>>> contacts_;  // per pair of the frame
     std::uint64_t tested_ = 0;
 };
 
@@ -39,15 +43,24 @@ std::optional<Problem> Checker<D>::test(std::size_t frame) {
     for (std::size_t i = 0; i < objects_.size(); ++i)
         boxes_[i] = objects_[i].present ? grown(objects_[i].box, 0.5f * options_.limits.clearance) : Aabb<D>::empty();
     if (std::optional<Problem> problem = overlapping_.find(boxes_)) return problem;
-    for (const Pair& pair : overlapping_.pairs()) {
-        const Object<D>&a = objects_[pair.first], &b = objects_[pair.second];
-        if (frame > 0 && !a.moved && !b.moved) {
-            findings_.extend(pair, frame);
+    const std::vector<Pair>& pairs = overlapping_.pairs();
+    const auto rests = [&](const Pair& pair) {
+        return frame > 0 && !objects_[pair.first].moved && !objects_[pair.second].moved;
+    };
+    contacts_.clear();
+    contacts_.resize(pairs.size());
+    workers_.each(pairs.size(), [&](std::size_t i) {
+        if (rests(pairs[i])) return;
+        contacts_[i] = pair_contact(ObjectAt<D>(objects_[pairs[i].first]), ObjectAt<D>(objects_[pairs[i].second]),
+                                    options_.limits);
+    });
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        if (rests(pairs[i])) {
+            findings_.extend(pairs[i], frame);
             continue;
         }
         ++tested_;
-        std::optional<PairContact<D>> contact = pair_contact(ObjectAt<D>(a), ObjectAt<D>(b), options_.limits);
-        if (contact) findings_.add(pair, frame, *std::move(contact));
+        if (contacts_[i]) findings_.add(pairs[i], frame, *std::move(contacts_[i]));
     }
     findings_.end_frame();
     return std::nullopt;

@@ -16,16 +16,18 @@ namespace abut::tool {
 struct CheckOptions {
     Limits limits;                        ///< pairs closer than the clearance are reported as well, unless they touch
     std::vector<PairPattern> pairs = {};  ///< only pairs that match one of these, in either order; empty: all
-    std::size_t max_findings = 100'000;   ///< only the deepest findings are reported beyond this
+    std::vector<std::uint32_t> bodies = {};  ///< per object; pairs with equal numbers are not tested; empty: none are
+    std::size_t max_findings = 100'000;      ///< only the deepest findings are reported beyond this
+    std::size_t threads = 1;                 ///< the result is the same with any number
 };
 
 template <int D>
 struct CheckResult {
     std::vector<ContactFinding<D>> findings;  ///< sorted by pair and time
-    std::uint64_t left_out = 0;        ///< count of findings beyond the maximum
-    std::uint64_t tested = 0;          ///< count of pair tests, over all frames
-    std::uint64_t swept = 0;           ///< count of pairs swept between frames, over all stages
-    std::uint64_t possible = 0;        ///< count of all pairs, over all frames
+    std::uint64_t left_out = 0;               ///< count of findings beyond the maximum
+    std::uint64_t tested = 0;                 ///< count of pair tests, over all frames
+    std::uint64_t swept = 0;                  ///< count of pairs swept between frames, over all stages
+    std::uint64_t possible = 0;               ///< count of all pairs, over all frames
 };
 
 /// Moves the objects through the times; they must be at the first one. A pair of which neither object moved since the

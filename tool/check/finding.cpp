@@ -4,28 +4,27 @@
 #include <tuple>
 
 namespace abut::tool {
-namespace {
-
-// Objects that a line names; the others are counted.
-constexpr std::size_t max_named = 5;
-
-}  // namespace
-
 const char* verdict(const FileReport& report) {
     if (report.count(Severity::error) > 0) return "errors";
     return report.findings.empty() ? "clean" : "warnings";
 }
 
-std::string joined_paths(const Finding& finding, const char* between) {
-    std::string text;
-    const std::size_t named = std::min(finding.objects.size(), max_named);
-    for (std::size_t i = 0; i < named; ++i) text += (i == 0 ? "" : between) + finding.objects[i].path;
-    if (named < finding.objects.size()) text += between + std::to_string(finding.objects.size() - named) + " more";
-    return text;
+std::string subject(const Finding& finding, const char* between) {
+    const std::string& first = finding.objects.front().path;
+    switch (info(finding.rule).kind) {
+        case Kind::gap:
+            if (finding.objects.size() == 1) return "within " + first;
+            [[fallthrough]];
+        case Kind::contact:
+        case Kind::inside:
+            return first + between + finding.objects.back().path;
+        default:
+            return first;
+    }
 }
 
 std::string sentence(const Finding& finding) {
-    return joined_paths(finding, " and ") + ": " + finding.text;
+    return subject(finding) + ": " + finding.text;
 }
 
 void sort_findings(std::vector<Finding>& findings) {

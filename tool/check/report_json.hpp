@@ -1,38 +1,24 @@
 #pragma once
 
-// JSON reports of `abut check`, and reading them as a baseline.
+// JSON reports of `abut check`; docs/check.schema.json describes them.
 
-#include "tool/check/report.hpp"
+#include "tool/check/finding.hpp"
 #include "tool/shared/format.hpp"
-#include <abut/math/result.hpp>
 
-#include <cstddef>
-#include <cstdint>
-#include <filesystem>
+#include <array>
+#include <span>
 #include <string>
-#include <vector>
 
 namespace abut::tool {
 
-/// One JSON object; numbers unrounded.
-template <int D>
-std::string json_report(const Report<D>& report);
+/// The members of a report that list findings.
+inline constexpr std::array<const char*, 6> finding_arrays{"contacts",   "spawns", "gaps",
+                                                           "duplicates", "leaks",  "floating"};
 
-/// A finding of a baseline.
-struct KnownFinding {
-    std::string a, b;
-    std::size_t first = 0, last = 0;
-    double distance = 0;
-};
+/// The member that lists the findings of a rule.
+const char* array_of(Rule rule);
 
-/// A baseline: its contacts, and the entire report to look up other findings.
-struct Baseline {
-    std::vector<KnownFinding> contacts;
-    std::uint64_t left_out = 0;  ///< contacts that it left out
-    Json report = Json::object();
-};
-
-/// Reads a file that `abut check --json` wrote. The message of a Problem doesn't name the file.
-Result<Baseline> read_baseline(const std::filesystem::path& file);
+/// One object; numbers unrounded.
+Json json_of(const FileReport& report);
 
 }  // namespace abut::tool

@@ -23,6 +23,8 @@ constexpr std::array<RuleInfo, count_rules> rules{{
      "A spawn has nothing below it to stand on"},
     {Rule::narrow_passage, "ABUT401", Kind::gap, Severity::error, "narrow-passage",
      "A passage is too narrow for the character"},
+    {Rule::narrow_detour, "ABUT402", Kind::gap, Severity::warning, "narrow-detour",
+     "A passage is too narrow for the character, which gets to both ends by another way"},
     {Rule::same_object, "ABUT501", Kind::duplicate, Severity::error, "same-object",
      "Objects are equal and in the same place"},
     {Rule::same_facets, "ABUT502", Kind::duplicate, Severity::warning, "same-facets",

@@ -29,6 +29,7 @@ enum class Rule : std::uint8_t {
     spawn_beneath,
     spawn_no_ground,
     narrow_passage,
+    narrow_detour,
     same_object,
     same_facets,
     hole,
@@ -37,7 +38,7 @@ enum class Rule : std::uint8_t {
     flipped,
     floating,
 };
-inline constexpr std::size_t count_rules = 15;
+inline constexpr std::size_t count_rules = 16;
 
 struct RuleInfo {
     Rule rule;

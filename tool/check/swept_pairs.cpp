@@ -59,37 +59,36 @@ struct PosedObject {
           box(bounds(placed)) {}
 };
 
+// Extends a contact that began at `first` to a later time.
+template <int D>
+void extend(std::optional<ContactFinding<D>>& known, double first, double time, PairContact<D>&& contact) {
+    if (!known) {
+        known.emplace();
+        known->between = true;
+        known->time = first;
+    }
+    known->last_time = time;
+    if (contact.distance >= known->distance) return;
+    known->deepest_time = time;
+    known->distance = contact.distance;
+    known->allow = contact.allow;
+    known->normal = contact.normal;
+    known->points = std::move(contact.points);
+    known->inside = contact.inside;
+}
+
 }  // namespace
 
 template <int D>
-void SweptPairs<D>::add_contact(const Pair& pair, double first, double time, PairContact<D>&& contact) {
-    const auto [entry, is_new] = contacts_.try_emplace(pair);
-    ContactFinding<D>& finding = entry->second;
-    if (is_new) {
-        finding.a = pair.first;
-        finding.b = pair.second;
-        finding.between = true;
-        finding.time = first;
-    }
-    finding.last_time = time;
-    if (contact.distance >= finding.distance) return;
-    finding.deepest_time = time;
-    finding.distance = contact.distance;
-    finding.allow = contact.allow;
-    finding.normal = contact.normal;
-    finding.points = std::move(contact.points);
-    finding.inside = contact.inside;
-}
-
-template <int D>
-void SweptPairs<D>::test(const Pair& pair, const Stage<D>& stage, float clearance) {
+void SweptPairs<D>::sweep_pair(const Stage<D>& stage, float clearance, Swept& swept) const {
+    const Pair& pair = swept.pair;
     const Object<D>&a = objects_[pair.first], &b = objects_[pair.second];
     const Motion<D>&motion_a = stage.motions[pair.first], &motion_b = stage.motions[pair.second];
     const double rotation = speed(Motion<D>{{}, {}, motion_a.turn}, static_cast<double>(a.reach)) +
                             speed(Motion<D>{{}, {}, motion_b.turn}, static_cast<double>(b.reach));
     const double max_motion = speed(Motion<D>{{}, motion_a.move - motion_b.move, {}}, 0) + rotation;
     if (!(max_motion > 0)) return;
-    ++swept_;
+    swept.is_swept = true;
     const double size = static_cast<double>(smaller_size(a, b));
     const double first_step = std::max(static_cast<double>(allowed_depth(a, b, limits_)), min_step * size) / max_motion;
     const double longest = std::max(max_step * size / max_motion, max_stage_fraction);
@@ -112,7 +111,7 @@ void SweptPairs<D>::test(const Pair& pair, const Stage<D>& stage, float clearanc
             const ObjectAt<D> object_b(b, posed_b.pose, posed_b.placed, posed_b.box);
             std::optional<PairContact<D>> contact = pair_contact(object_a, object_b, limits_);
             const bool is_separate = !contact && !overlaps(posed_a.placed, posed_b.placed);
-            if (contact) add_contact(pair, time_of(first), time_of(fraction), *std::move(contact));
+            if (contact) extend(swept.contact, time_of(first), time_of(fraction), *std::move(contact));
             if (is_separate || fraction >= 1) break;
         }
     }
@@ -127,14 +126,35 @@ std::optional<Problem> SweptPairs<D>::test(const Stage<D>& stage, const ContactF
                         ? Aabb<D>::empty()
                         : grown(swept_box(objects_[i], stage.motions[i]), 0.5f * limits_.clearance);
     if (std::optional<Problem> problem = overlapping_.find(boxes_)) return problem;
+    swept_pairs_.clear();
     for (const Pair& pair : overlapping_.pairs()) {
         const bool moves =
             stage.parts[pair.first] == StageMotion::moves || stage.parts[pair.second] == StageMotion::moves;
-        if (!moves || at_first.has(pair)) continue;
-        test(pair, stage, 0);
-        if (limits_.clearance > 0 && !contacts_.contains(pair)) test(pair, stage, limits_.clearance);
+        if (moves && !at_first.has(pair)) swept_pairs_.push_back({pair});
     }
+    workers_.each(swept_pairs_.size(), [&](std::size_t i) {
+        Swept& swept = swept_pairs_[i];
+        sweep_pair(stage, 0, swept);
+        if (limits_.clearance > 0 && !swept.contact && !contacts_.contains(swept.pair))
+            sweep_pair(stage, limits_.clearance, swept);
+    });
+    for (Swept& swept : swept_pairs_) add(std::move(swept));
     return std::nullopt;
+}
+
+template <int D>
+void SweptPairs<D>::add(Swept&& swept) {
+    swept_ += swept.is_swept ? 1 : 0;
+    if (!swept.contact) return;
+    ContactFinding<D>& contact = *swept.contact;
+    contact.a = swept.pair.first;
+    contact.b = swept.pair.second;
+    const auto [entry, is_new] = contacts_.try_emplace(swept.pair);
+    ContactFinding<D>& known = entry->second;
+    const double first = is_new ? contact.time : known.time, last = contact.last_time;
+    if (is_new || contact.distance < known.distance) known = std::move(contact);
+    known.time = first;
+    known.last_time = last;
 }
 
 template <int D>

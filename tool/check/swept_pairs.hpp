@@ -3,9 +3,11 @@
 // Contacts between frames, by continuous sweeps.
 
 #include "tool/check/contact_findings.hpp"
+#include "tool/shared/workers.hpp"
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <vector>
 
 namespace abut::tool {
@@ -16,8 +18,8 @@ template <int D>
 class SweptPairs {
 public:
     /// Refers to all arguments.
-    SweptPairs(const Objects<D>& objects, const Limits& limits, const PairFilter& selection)
-        : objects_(objects), limits_(limits), overlapping_(selection) {}
+    SweptPairs(const Objects<D>& objects, const Limits& limits, const PairFilter& selection, Workers& workers)
+        : objects_(objects), limits_(limits), overlapping_(selection), workers_(workers) {}
 
     /// Sweeps all pairs through a stage; `at_first` has the contacts of the frame before it.
     std::optional<Problem> test(const Stage<D>& stage, const ContactFindings<D>& at_first);
@@ -30,13 +32,22 @@ public:
     std::uint64_t swept() const { return swept_; }
 
 private:
-    void test(const Pair& pair, const Stage<D>& stage, float clearance);
-    void add_contact(const Pair& pair, double first, double time, PairContact<D>&& contact);
+    /// The contact of a pair on a stage.
+    struct Swept {
+        Pair pair;
+        bool is_swept = false;  ///< false if nothing moves
+        std::optional<ContactFinding<D>> contact = std::nullopt;
+    };
+
+    void sweep_pair(const Stage<D>& stage, float clearance, Swept& swept) const;
+    void add(Swept&& swept);
 
     const Objects<D>& objects_;
     const Limits& limits_;
     OverlappingPairs<D> overlapping_;
+    Workers& workers_;
     std::vector<Aabb<D>> boxes_;
+    std::vector<Swept> swept_pairs_;
     std::map<Pair, ContactFinding<D>> contacts_;
     std::uint64_t swept_ = 0;
 };

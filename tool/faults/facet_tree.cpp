@@ -109,6 +109,17 @@ bool FacetTree<D>::has_within(const DVec<D>& point, double distance) const {
 }
 
 template <int D>
+bool FacetTree<D>::has_within(const DVec<D>& a, const DVec<D>& b, double distance) const {
+    const Segment<D> segment{Vec<D>(a), Vec<D>(b)};
+    bool found = false;
+    tree_.each_overlapping(grown(bounds(view(segment)), static_cast<float>(distance)), [&](std::uint32_t i) {
+        found = static_cast<double>(closest(facets_[i].shape, segment).distance) < distance;
+        return !found;
+    });
+    return found;
+}
+
+template <int D>
 std::optional<FacetHit<D>> FacetTree<D>::first_hit(const DVec<D>& origin, const DVec<D>& direction,
                                                    double length) const {
     const Ray<D> ray{Vec<D>(origin), Vec<D>(direction), static_cast<float>(length)};

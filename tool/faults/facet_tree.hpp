@@ -51,6 +51,9 @@ public:
     /// True if a facet is closer to the point than `distance`.
     bool has_within(const DVec<D>& point, double distance) const;
 
+    /// True if a facet is closer to the segment than `distance`.
+    bool has_within(const DVec<D>& a, const DVec<D>& b, double distance) const;
+
     /// Calls visit(index) for each facet at most `distance` from the point, in the order of the tree.
     template <class Visit>
     void each_within(const DVec<D>& point, double distance, Visit&& visit) const {

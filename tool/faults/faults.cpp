@@ -53,6 +53,42 @@ Result<std::vector<LevelLeak>> leaks_of(const LevelView<D>& level, const FaultOp
     return std::vector<LevelLeak>();
 }
 
+template <int D>
+void find_selected_duplicates(const LevelView<D>& level, const PairFilter& filter, const FaultOptions& options,
+                              Duplicates<D>& result) {
+    result = find_duplicates(level.objects);
+    if (options.pairs.empty()) return;
+    result.facets.clear();
+    std::erase_if(result.groups, [&](const CopyGroup<D>& group) {
+        for (const std::size_t i : group.objects)
+            for (const std::size_t j : group.objects)
+                if (i < j && filter.has(i, j)) return false;
+        return true;
+    });
+}
+
+// Where the character walks, for the check of gaps; nothing, and a note, if that is unknown.
+template <int D>
+std::optional<Walkable<D>> walkable_of(const LevelView<D>& level, const FacetTree<D>& facets,
+                                       const std::vector<std::size_t>& spawns,
+                                       const std::optional<Character>& character, const std::optional<Vec<D>>& up,
+                                       std::vector<std::string>& notes) {
+    if (!character) return std::nullopt;
+    std::vector<Vec<D>> positions;
+    for (const std::size_t spawn : spawns) positions.push_back(level.places[spawn].position);
+    const char* all_count = ": gaps are reported everywhere, also where nobody walks";
+    if (positions.empty()) {
+        notes.push_back(std::string("there is no spawn") + all_count);
+        return std::nullopt;
+    }
+    Walkable<D> walkable(facets, *character, up, positions);
+    if (walkable.size() > 0 && walkable.is_complete()) return walkable;
+    notes.push_back((walkable.size() == 0 ? "the character can stand at no spawn"
+                                          : "the level is too large to walk through for a character of that size") +
+                    std::string(all_count));
+    return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<GapRange> gap_range(const FaultOptions& options) {
@@ -62,40 +98,53 @@ std::optional<GapRange> gap_range(const FaultOptions& options) {
 }
 
 template <int D>
-Result<LevelFaults<D>> find_faults(const LevelView<D>& level, const FaultOptions& options) {
+Result<LevelFaults<D>> find_faults(const LevelView<D>& level, const FaultOptions& options,
+                                   const Severities& severities) {
     const Result<std::optional<Vec<D>>> up = parse_up_direction<D>(options);
     if (!up) return up.problem();
     const Result<std::vector<std::size_t>> spawns = spawns_of(level, options);
     if (!spawns) return spawns.problem();
-    Result<std::vector<LevelLeak>> leaks = leaks_of(level, options);
-    if (!leaks) return leaks.problem();
-
     LevelFaults<D> result;
-    result.leaks = *std::move(leaks);
-    result.spawns_tested = spawns->size();
-    if (!spawns->empty()) result.spawns = find_spawn_faults(level, *spawns, {options.character, *up, options.allow});
+    if (severities.checks(Kind::leak)) {
+        Result<std::vector<LevelLeak>> leaks = leaks_of(level, options);
+        if (!leaks) return leaks.problem();
+        result.leaks = *std::move(leaks);
+    }
+    if (severities.checks(Kind::spawn)) {
+        result.spawns_tested = spawns->size();
+        if (!spawns->empty())
+            result.spawns = find_spawn_faults(level, *spawns, {options.character, *up, options.allow});
+    }
     const PairFilter filter(level.objects, options.pairs);
-    result.gap_range = gap_range(options);
+    if (severities.checks(Kind::gap)) result.gap_range = gap_range(options);
     if (result.gap_range) {
         GapOptions<D> gap{result.gap_range->width, result.gap_range->min_width};
         if (*up) gap.up = DVec<D>(**up);
         gap.is_selected = [&](std::size_t i, std::size_t j) { return filter.has(i, j); };
-        result.gaps = find_gaps(FacetTree<D>(level.objects), gap);
+        const FacetTree<D> facets(level.objects);
+        std::vector<ViewedObject<D>> obstacles;
+        for (const std::size_t i : obstacles_of(level, *spawns)) obstacles.push_back(level.objects[i]);
+        const FacetTree<D> ways(obstacles);
+        const std::optional<Walkable<D>> walkable =
+            walkable_of<D>(level, ways, *spawns, options.character, *up, result.notes);
+        if (walkable) gap.walkable = &*walkable;
+        result.gaps = find_gaps(facets, gap);
     }
-    result.duplicates = find_duplicates(level.objects);
-    if (!options.pairs.empty()) {
-        result.duplicates.facets.clear();
-        std::erase_if(result.duplicates.groups, [&](const CopyGroup<D>& group) {
-            for (const std::size_t i : group.objects)
-                for (const std::size_t j : group.objects)
-                    if (i < j && filter.has(i, j)) return false;
-            return true;
-        });
+    if (severities.checks(Kind::floating) && *up) {
+        const std::vector<std::size_t> numbers = obstacles_of(level, *spawns);
+        std::vector<ViewedObject<D>> objects;
+        for (const std::size_t i : numbers) objects.push_back(level.objects[i]);
+        result.floating = find_floating(objects, **up);
+        for (FloatingObject<D>& floating : result.floating) {
+            floating.object = numbers[floating.object];
+            floating.nearest = numbers[floating.nearest];
+        }
     }
+    if (severities.checks(Kind::duplicate)) find_selected_duplicates(level, filter, options, result.duplicates);
     return result;
 }
 
-template Result<LevelFaults<2>> find_faults(const LevelView<2>&, const FaultOptions&);
-template Result<LevelFaults<3>> find_faults(const LevelView<3>&, const FaultOptions&);
+template Result<LevelFaults<2>> find_faults(const LevelView<2>&, const FaultOptions&, const Severities&);
+template Result<LevelFaults<3>> find_faults(const LevelView<3>&, const FaultOptions&, const Severities&);
 
 }  // namespace abut::tool

@@ -1,9 +1,11 @@
 #pragma once
 
-// Faults of a level at its first time, besides contacts: spawns, passages, duplicates and leaks.
+// Faults of a level at its first time, besides contacts: spawns, passages, duplicates, leaks and floating objects.
 
 #include "tool/check/check.hpp"
+#include "tool/check/severities.hpp"
 #include "tool/faults/duplicates.hpp"
+#include "tool/faults/floating.hpp"
 #include "tool/faults/gaps.hpp"
 #include "tool/faults/leaks.hpp"
 #include "tool/faults/spawns.hpp"
@@ -49,19 +51,17 @@ struct LevelFaults {
     std::optional<GapRange> gap_range;  ///< the range that was checked; none: not checked
     Duplicates<D> duplicates;
     std::vector<LevelLeak> leaks;
-    std::size_t known = 0;  ///< count of faults left out because the baseline has them
-
-    std::size_t count() const {
-        return spawns.size() + gaps.size() + duplicates.groups.size() + duplicates.facets.size() + leaks.size();
-    }
+    std::vector<FloatingObject<D>> floating;
+    std::vector<std::string> notes;
 };
 
 /// The range of widths given, or the one that the character needs.
 std::optional<GapRange> gap_range(const FaultOptions& options);
 
-/// Finds all faults. Returns a Problem if a pattern matches nothing, or the up axis doesn't exist in 2D; its message
-/// begins with the option. Leaks are checked in 3D only.
+/// Finds all faults of kinds that are not off. Returns a Problem if a pattern matches nothing, or the up axis doesn't
+/// exist in 2D; its message begins with the option. Leaks are checked in 3D only.
 template <int D>
-Result<LevelFaults<D>> find_faults(const LevelView<D>& level, const FaultOptions& options);
+Result<LevelFaults<D>> find_faults(const LevelView<D>& level, const FaultOptions& options,
+                                   const Severities& severities);
 
 }  // namespace abut::tool

@@ -20,6 +20,7 @@ struct Neck {
     DVec<D> middle{0.0};
     /// Perpendicular to `across` and to one another: principal axes of the midpoints of all translated necks.
     std::array<DVec<D>, static_cast<std::size_t>(D) - 1> along{};
+    bool is_detour = false;  ///< as in Gap
 };
 
 /// All necks, in facet order.

@@ -28,17 +28,13 @@ constexpr float max_free_distance = 4;
 constexpr float clearance = 1e-3f;
 // Height above a point spawn at which the search for its ground starts, relative to the level's size: covers rounding.
 constexpr float ground_search_height = 1e-4f;
+// Places along each side of a spawn's area that are tried.
+constexpr int places_along_area = 16;
 // Maximum number of objects that a spawn is moved out of, one after another.
 constexpr int max_push_outs = 4;
 
 bool is_at_or_below(std::string_view path, std::string_view above) {
     return path.starts_with(above) && (path.size() == above.size() || path[above.size()] == '/');
-}
-
-std::string lower_case(std::string text) {
-    for (char& c : text)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    return text;
 }
 
 bool has_usual_name(const std::string& name) {
@@ -76,6 +72,7 @@ public:
     std::optional<SpawnFinding<D>> test(std::size_t place) const;
 
 private:
+    std::optional<SpawnFinding<D>> test(std::size_t place, const Vec<D>& position) const;
     Capsule<D> character_at(const Vec<D>& place) const;
     float size() const { return options_.character ? 0.5f * options_.character->height : 0; }
     float allowed(const ViewedObject<D>& object) const;
@@ -181,7 +178,23 @@ std::optional<Vec<D>> SpawnCheck<D>::free_place(const Vec<D>& place) const {
 
 template <int D>
 std::optional<SpawnFinding<D>> SpawnCheck<D>::test(std::size_t place) const {
-    const Vec<D> position = level_.places[place].position;
+    const NamedPlace<D>& spawn = level_.places[place];
+    std::optional<SpawnFinding<D>> finding = test(place, spawn.position);
+    if (!finding || !spawn.area) return finding;
+    // The places of a grid over the area; areas are of levels in 2D.
+    const Vec<D> extent = spawn.area->max - spawn.area->min;
+    for (int i = 0; i <= places_along_area; ++i)
+        for (int j = 0; j <= places_along_area; ++j) {
+            Vec<D> position = spawn.position;
+            position[0] = spawn.area->min[0] + extent[0] * static_cast<float>(i) / places_along_area;
+            position[1] = spawn.area->min[1] + extent[1] * static_cast<float>(j) / places_along_area;
+            if (!test(place, position)) return std::nullopt;
+        }
+    return finding;
+}
+
+template <int D>
+std::optional<SpawnFinding<D>> SpawnCheck<D>::test(std::size_t place, const Vec<D>& position) const {
     SpawnFinding<D> finding;
     finding.place = place;
     if (const std::optional<Overlap<D>> overlap = deepest(position)) {
@@ -215,9 +228,7 @@ template <int D>
 std::vector<std::size_t> matching_places(const LevelView<D>& level, const std::string& pattern) {
     std::vector<std::size_t> result;
     for (std::size_t i = 0; i < level.places.size(); ++i)
-        if (const NamedPlace<D>& place = level.places[i];
-            matches_name(pattern, place) || (!place.type.empty() && glob_matches(pattern, place.type)))
-            result.push_back(i);
+        if (const NamedPlace<D>& place = level.places[i]; matches_name(pattern, place)) result.push_back(i);
     return result;
 }
 
@@ -236,18 +247,22 @@ std::vector<std::size_t> default_spawns(const LevelView<D>& level) {
 }
 
 template <int D>
+std::vector<std::size_t> obstacles_of(const LevelView<D>& level, const std::vector<std::size_t>& spawns) {
+    std::vector<std::size_t> result;
+    for (std::size_t i = 0; i < level.objects.size(); ++i)
+        if (std::none_of(spawns.begin(), spawns.end(), [&](std::size_t spawn) {
+                return is_at_or_below(level.objects[i].path, level.places[spawn].path);
+            }))
+            result.push_back(i);
+    return result;
+}
+
+template <int D>
 std::vector<SpawnFinding<D>> find_spawn_faults(const LevelView<D>& level, const std::vector<std::size_t>& spawns,
                                                const SpawnOptions<D>& options) {
+    std::vector<std::size_t> numbers = obstacles_of(level, spawns);
     std::vector<ViewedObject<D>> obstacles;
-    std::vector<std::size_t> numbers;
-    for (std::size_t i = 0; i < level.objects.size(); ++i) {
-        const bool is_marker = std::any_of(spawns.begin(), spawns.end(), [&](std::size_t spawn) {
-            return is_at_or_below(level.objects[i].path, level.places[spawn].path);
-        });
-        if (is_marker) continue;
-        obstacles.push_back(level.objects[i]);
-        numbers.push_back(i);
-    }
+    for (const std::size_t i : numbers) obstacles.push_back(level.objects[i]);
     std::vector<SpawnFinding<D>> result;
     const SpawnCheck<D> check(level, std::move(obstacles), std::move(numbers), options);
     for (const std::size_t spawn : spawns)
@@ -259,6 +274,8 @@ template std::vector<std::size_t> matching_places(const LevelView<2>&, const std
 template std::vector<std::size_t> matching_places(const LevelView<3>&, const std::string&);
 template std::vector<std::size_t> default_spawns(const LevelView<2>&);
 template std::vector<std::size_t> default_spawns(const LevelView<3>&);
+template std::vector<std::size_t> obstacles_of(const LevelView<2>&, const std::vector<std::size_t>&);
+template std::vector<std::size_t> obstacles_of(const LevelView<3>&, const std::vector<std::size_t>&);
 template std::vector<SpawnFinding<2>> find_spawn_faults(const LevelView<2>&, const std::vector<std::size_t>&,
                                                         const SpawnOptions<2>&);
 template std::vector<SpawnFinding<3>> find_spawn_faults(const LevelView<3>&, const std::vector<std::size_t>&,

@@ -48,7 +48,12 @@ std::vector<std::size_t> matching_places(const LevelView<D>& level, const std::s
 template <int D>
 std::vector<std::size_t> default_spawns(const LevelView<D>& level);
 
-/// Checks the spawns. Objects at or below their nodes are markers and no obstacles. Characters stand on slopes up to 60
+/// Numbers of the objects that are at or below no spawn. The others mark a spawn, and block nothing.
+template <int D>
+std::vector<std::size_t> obstacles_of(const LevelView<D>& level, const std::vector<std::size_t>& spawns);
+
+/// Checks the spawns. One with an area is at fault if each of the places tried in it is; the fault of its middle is
+/// reported. Characters stand on slopes up to 60
 /// degrees: the penetration of the round end into a slope through its lowest point is ignored. Faults of the ground are
 /// checked only if there is an up.
 template <int D>

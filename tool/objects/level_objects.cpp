@@ -20,8 +20,9 @@ struct PartName {
 
 }  // namespace
 
-LevelObjects::LevelObjects(const Level& level) {
-    for (const LevelObject& object : level.objects) sources_.push_back(&object);
+LevelObjects::LevelObjects(const Level& level, const std::vector<bool>& solid) {
+    for (std::size_t i = 0; i < level.objects.size(); ++i)
+        if (solid.empty() || solid[i]) sources_.push_back(&level.objects[i]);
     std::sort(sources_.begin(), sources_.end(),
               [](const LevelObject* a, const LevelObject* b) { return a->path < b->path; });
     for (const LevelObject* source : sources_) {

@@ -11,8 +11,8 @@ namespace abut::tool {
 
 class LevelObjects final : public Objects<2> {
 public:
-    /// Refers to the level.
-    explicit LevelObjects(const Level& level);
+    /// Refers to the level. `solid` selects among its objects; empty: all.
+    explicit LevelObjects(const Level& level, const std::vector<bool>& solid = {});
 
     /// Returns a Problem if an object extends out of the range of floats.
     std::optional<Problem> go_to(double time, ProgressCall progress) override;

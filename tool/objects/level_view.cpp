@@ -3,6 +3,8 @@
 #include "tool/objects/flat_surface.hpp"
 
 #include <algorithm>
+#include <set>
+#include <string_view>
 #include <utility>
 
 namespace abut::tool {
@@ -24,6 +26,7 @@ ViewedObject<D> viewed(const Object<D>& object) {
     ViewedObject<D> result;
     result.path = object.path;
     result.name = object.name;
+    result.type = object.type;
     result.shape = object.placed;
     result.box = object.box;
     result.radius = object.radius;
@@ -67,7 +70,14 @@ LevelView<2> level_view(const Level& level, const LevelObjects& objects, double)
         object.filled =
             object.filled || std::holds_alternative<TileMap>(shape) || std::holds_alternative<Compound2>(shape);
         object.surface = surface_of(object.shape, object.filled);
-        result.places.push_back({object.path, object.name, center(object.box), objects[i].type});
+    }
+    std::set<std::string_view> solid;
+    for (const ViewedObject<2>& object : result.objects) solid.insert(object.path);
+    for (const LevelObject& object : level.objects) {
+        const Aabb2 box = bounds(object);
+        NamedPlace<2>& place = result.places.emplace_back();
+        place = {object.path, object.name, center(box), object.type};
+        if (!solid.contains(object.path)) place.area = box;
     }
     for (const LevelPoint& point : level.points)
         result.places.push_back({point.path, point.name, point.position, point.type});

@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,7 @@ template <int D>
 struct ViewedObject {
     std::string path;
     std::string name;       ///< last component of the path
+    std::string type;       ///< class assigned by the author, if the format has classes
     std::size_t model = 0;  ///< objects of one model have the same facets under different transforms
     View<D> shape;          ///< in world space
     Aabb<D> box = Aabb<D>::empty();
@@ -47,7 +49,8 @@ struct NamedPlace {
     std::string path;
     std::string name;
     Vec<D> position{};
-    std::string type;  ///< class assigned by the author, if the format has classes
+    std::string type;                            ///< class assigned by the author, if the format has classes
+    std::optional<Aabb<D>> area = std::nullopt;  ///< of an object that doesn't collide: the whole area is meant
 };
 
 template <int D>

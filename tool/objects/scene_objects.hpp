@@ -37,6 +37,9 @@ public:
     using Shape = std::variant<Polyhedron, Mesh>;
     const Shape& shape(std::size_t object) const { return nodes_[object].shape; }
 
+    /// Index of the node in the scene.
+    std::uint32_t node(std::size_t object) const { return nodes_[object].node; }
+
     /// Index of the mesh in the file's coordinates; objects with the same mesh share it.
     std::size_t model(std::size_t object) const { return nodes_[object].model; }
     const Welded& surface(std::size_t object) const { return models_[model(object)].surface; }

@@ -1,13 +1,22 @@
 #include "tool/shared/files.hpp"
 
 #include "tool/shared/import_in_child.hpp"
+#include "tool/shared/name_pattern.hpp"
 #include <abut/io/file/referenced_files.hpp>
 #include <abut/io/read_level.hpp>
+
+#include <filesystem>
 
 namespace abut::tool {
 
 int dimension_of(const std::string& file) {
     return is_level(file) ? 2 : 3;
+}
+
+std::string units_of(const std::string& file) {
+    if (is_level(file)) return "px";
+    const std::string extension = lower_case(std::filesystem::path(file).extension().string());
+    return extension == ".gltf" || extension == ".glb" ? "m" : "file";
 }
 
 std::string hint(const Problem& problem) {

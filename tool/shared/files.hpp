@@ -28,6 +28,9 @@ struct FileOptions {
 /// The dimension, 2 or 3, by the file's extension.
 int dimension_of(const std::string& file);
 
+/// The unit of a file's lengths: "m" for glTF, "px" for Tiled and SVG, else "file".
+std::string units_of(const std::string& file);
+
 /// Loads a scene or a level. The message of a Problem begins with the file.
 template <int D>
 Result<File<D>> load(const std::string& file, const FileOptions& options);

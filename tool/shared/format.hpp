@@ -5,6 +5,7 @@
 #include <abut/math/vec.hpp>
 
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -17,6 +18,13 @@ template <int D>
 Json numbers(const Vec<D>& v) {
     Json result = Json::array();
     for (int i = 0; i < D; ++i) result.push_back(v[i]);
+    return result;
+}
+
+template <int D>
+std::vector<double> coordinates(const Vec<D>& v) {
+    std::vector<double> result;
+    for (int i = 0; i < D; ++i) result.push_back(static_cast<double>(v[i]));
     return result;
 }
 

@@ -122,6 +122,7 @@ void serialize_scene(Bytes& bytes, AnyScene& scene) {
         to.serialize(node.parent);
         to.serialize(node.local);
         to.serialize_all(node.geometries);
+        to.serialize(node.is_body);
     });
     bytes.serialize_each(scene.animations, [](Bytes& to, auto& animation) {
         to.serialize(animation.name);

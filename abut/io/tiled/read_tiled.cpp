@@ -190,6 +190,8 @@ void Builder::tile_layer(const Layer& layer, const std::string& prefix, const DV
     made.shape = std::move(whole->shape);
     made.pose = whole->pose;
     made.filled = whole->filled;
+    made.is_layer = true;
+    made.assumed_full = !tiles_.have_shapes();
     level_.objects.push_back(std::move(made));
 }
 

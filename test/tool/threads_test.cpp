@@ -1,0 +1,74 @@
+// The same report with any number of threads.
+
+#include "../oracle/random.hpp"
+#include "scene_of.hpp"
+#include "tool/check/check.hpp"
+#include "tool/objects/scene_objects.hpp"
+#include "tool/shared/workers.hpp"
+
+#include <atomic>
+
+#include <gtest/gtest.h>
+
+namespace abut::tool {
+namespace {
+
+using oracle::Random;
+
+TEST(Workers, VisitEachIndexOnce) {
+    for (const std::size_t threads : {1, 2, 7}) {
+        Workers workers(threads);
+        for (const std::size_t count : {0, 1, 2, 63, 1000}) {
+            std::vector<std::atomic<int>> visits(count);
+            workers.each(count, [&](std::size_t i) { ++visits[i]; });
+            for (const std::atomic<int>& visit : visits) EXPECT_EQ(visit, 1);
+        }
+    }
+}
+
+// Boxes that slide and turn through one another.
+Scene crowd(std::uint64_t seed) {
+    Random random(seed);
+    Scene scene;
+    for (int i = 0; i < 40; ++i) {
+        const auto place = [&] { return random.uniform(-3, 3); };
+        const std::uint32_t node = test::add_unit_box(scene, "Box " + std::to_string(i), {place(), place(), place()});
+        if (i % 2 == 0) test::add_slide(scene, node, {place(), place(), place(), place()});
+    }
+    return scene;
+}
+
+CheckResult<3> check_with(const Scene& scene, std::size_t threads) {
+    SceneObjects objects(scene);
+    const std::vector<double> times = key_times(scene);
+    EXPECT_FALSE(objects.go_to(times.front()));
+    CheckOptions options;
+    options.limits.clearance = 0.05f;
+    options.threads = threads;
+    Result<CheckResult<3>> result = check<3>(objects, times, options, [](std::size_t, std::size_t) {});
+    EXPECT_TRUE(result);
+    return *std::move(result);
+}
+
+TEST(Threads, TheSameFindingsWithAnyNumber) {
+    const Scene scene = crowd(29);
+    const CheckResult<3> one = check_with(scene, 1);
+    EXPECT_GT(one.findings.size(), 30u);
+    EXPECT_TRUE(std::any_of(one.findings.begin(), one.findings.end(), [](const auto& f) { return f.between; }));
+    for (const std::size_t threads : {2, 3, 8}) {
+        const CheckResult<3> many = check_with(scene, threads);
+        EXPECT_EQ(many.tested, one.tested);
+        EXPECT_EQ(many.swept, one.swept);
+        ASSERT_EQ(many.findings.size(), one.findings.size());
+        for (std::size_t i = 0; i < one.findings.size(); ++i) {
+            const ContactFinding<3>&a = one.findings[i], &b = many.findings[i];
+            EXPECT_EQ(std::tie(a.a, a.b, a.first, a.last, a.deepest, a.distance, a.time, a.last_time, a.deepest_time),
+                      std::tie(b.a, b.b, b.first, b.last, b.deepest, b.distance, b.time, b.last_time, b.deepest_time));
+            EXPECT_EQ(a.normal, b.normal);
+            EXPECT_EQ(a.points, b.points);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace abut::tool

@@ -1,0 +1,9 @@
+#include "tool/shared/version.hpp"
+
+namespace abut::tool {
+
+const char* version() {
+    return ABUT_VERSION;
+}
+
+}  // namespace abut::tool
