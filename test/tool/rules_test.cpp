@@ -99,12 +99,10 @@ TEST_F(Rules, OnlyAndNo) {
     EXPECT_EQ(no["contacts"].size(), 0u);
     EXPECT_EQ(no["leaks"].size(), 1u);
     EXPECT_EQ(refusal({"check", file, "--only", "leaks"}),
-              "abut: " + file +
-                  ": --only: 'leaks' is no kind and no code; the kinds are spawn, inside, contact, gap, "
+              "abut: --only: 'leaks' is no kind and no code; the kinds are spawn, inside, contact, gap, "
                   "duplicate, leak, floating");
     EXPECT_EQ(refusal({"check", file, "--severity", "leak=fatal"}),
-              "abut: " + file +
-                  ": --severity: 'leak=fatal' is no KIND=SEVERITY, such as leak=error; the severities "
+              "abut: --severity: 'leak=fatal' is no KIND=SEVERITY, such as leak=error; the severities "
                   "are off, warning and error");
 }
 
@@ -123,8 +121,7 @@ TEST_F(Rules, IgnoreTakesPairsObjectsAndCodes) {
     ASSERT_EQ(unused["warnings"].size(), 1u);
     EXPECT_EQ(unused["warnings"][0], "--ignore: 'Barrel:*' matches no finding");
     EXPECT_EQ(refusal({"check", file, "--ignore", "a:b:c"}),
-              "abut: " + file +
-                  ": --ignore: 'a:b:c' is not one pattern, or two with one ':' between them (a ':' in a "
+              "abut: --ignore: 'a:b:c' is not one pattern, or two with one ':' between them (a ':' in a "
                   "name is matched by '?'), after a code and a blank or alone");
 }
 

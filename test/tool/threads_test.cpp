@@ -4,9 +4,9 @@
 #include "scene_of.hpp"
 #include "tool/check/check.hpp"
 #include "tool/objects/scene_objects.hpp"
-#include "tool/shared/workers.hpp"
 
-#include <atomic>
+#include <algorithm>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
@@ -14,17 +14,6 @@ namespace abut::tool {
 namespace {
 
 using oracle::Random;
-
-TEST(Workers, VisitEachIndexOnce) {
-    for (const std::size_t threads : {1, 2, 7}) {
-        Workers workers(threads);
-        for (const std::size_t count : {0, 1, 2, 63, 1000}) {
-            std::vector<std::atomic<int>> visits(count);
-            workers.each(count, [&](std::size_t i) { ++visits[i]; });
-            for (const std::atomic<int>& visit : visits) EXPECT_EQ(visit, 1);
-        }
-    }
-}
 
 // Boxes that slide and turn through one another.
 Scene crowd(std::uint64_t seed) {

@@ -1,6 +1,7 @@
 #include "tool/check/check.hpp"
 
 #include "tool/check/swept_pairs.hpp"
+#include <abut/math/thread_pool.hpp>
 
 #include <optional>
 #include <utility>
@@ -15,7 +16,7 @@ public:
         : objects_(objects),
           options_(options),
           filter_(objects, options.pairs, options.bodies),
-          workers_(options.threads),
+          workers_(static_cast<std::uint32_t>(options.threads)),
           overlapping_(filter_),
           swept_pairs_(objects, options.limits, filter_, workers_),
           findings_(options.max_findings) {}
@@ -28,7 +29,7 @@ private:
     Objects<D>& objects_;
     const CheckOptions& options_;
     PairFilter filter_;
-    Workers workers_;
+    ThreadPool workers_;
     OverlappingPairs<D> overlapping_;
     SweptPairs<D> swept_pairs_;
     ContactFindings<D> findings_;
@@ -49,7 +50,7 @@ std::optional<Problem> Checker<D>::test(std::size_t frame) {
     };
     contacts_.clear();
     contacts_.resize(pairs.size());
-    workers_.each(pairs.size(), [&](std::size_t i) {
+    workers_.run(static_cast<std::uint32_t>(pairs.size()), [&](std::uint32_t i) {
         if (rests(pairs[i])) return;
         contacts_[i] = pair_contact(ObjectAt<D>(objects_[pairs[i].first]), ObjectAt<D>(objects_[pairs[i].second]),
                                     options_.limits);

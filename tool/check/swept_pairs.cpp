@@ -132,7 +132,7 @@ std::optional<Problem> SweptPairs<D>::test(const Stage<D>& stage, const ContactF
             stage.parts[pair.first] == StageMotion::moves || stage.parts[pair.second] == StageMotion::moves;
         if (moves && !at_first.has(pair)) swept_pairs_.push_back({pair});
     }
-    workers_.each(swept_pairs_.size(), [&](std::size_t i) {
+    workers_.run(static_cast<std::uint32_t>(swept_pairs_.size()), [&](std::uint32_t i) {
         Swept& swept = swept_pairs_[i];
         sweep_pair(stage, 0, swept);
         if (limits_.clearance > 0 && !swept.contact && !contacts_.contains(swept.pair))

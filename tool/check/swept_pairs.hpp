@@ -3,7 +3,7 @@
 // Contacts between frames, by continuous sweeps.
 
 #include "tool/check/contact_findings.hpp"
-#include "tool/shared/workers.hpp"
+#include <abut/math/executor.hpp>
 
 #include <cstdint>
 #include <map>
@@ -18,7 +18,7 @@ template <int D>
 class SweptPairs {
 public:
     /// Refers to all arguments.
-    SweptPairs(const Objects<D>& objects, const Limits& limits, const PairFilter& selection, Workers& workers)
+    SweptPairs(const Objects<D>& objects, const Limits& limits, const PairFilter& selection, Executor& workers)
         : objects_(objects), limits_(limits), overlapping_(selection), workers_(workers) {}
 
     /// Sweeps all pairs through a stage; `at_first` has the contacts of the frame before it.
@@ -45,7 +45,7 @@ private:
     const Objects<D>& objects_;
     const Limits& limits_;
     OverlappingPairs<D> overlapping_;
-    Workers& workers_;
+    Executor& workers_;
     std::vector<Aabb<D>> boxes_;
     std::vector<Swept> swept_pairs_;
     std::map<Pair, ContactFinding<D>> contacts_;

@@ -71,6 +71,7 @@ ExitCode exit_code_of(const std::vector<CheckedFile>& checked) {
 }  // namespace
 
 Result<ExitCode> run_check(const CheckRequest& request) {
+    if (const Result<CheckPlan> plan = plan_of(request.settings); !plan) return plan.problem();
     const Result<std::vector<std::string>> scenes = scenes_of(request.scenes);
     if (!scenes) return scenes.problem();
     const std::vector<CheckedFile> checked = check_all(*scenes, request);

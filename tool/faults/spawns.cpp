@@ -44,6 +44,14 @@ bool has_usual_name(const std::string& name) {
                        [&](std::string_view word) { return lower.find(word) != std::string::npos; });
 }
 
+// Maps write spawns that may be anywhere as points in their corner.
+bool is_anywhere(const NamedPlace<2>& place) {
+    return place.position == Vec2(0);
+}
+bool is_anywhere(const NamedPlace<3>&) {
+    return false;
+}
+
 template <int D>
 struct Overlap {
     std::size_t object = 0;
@@ -236,7 +244,9 @@ template <int D>
 std::vector<std::size_t> default_spawns(const LevelView<D>& level) {
     std::vector<std::size_t> named;
     for (std::size_t i = 0; i < level.places.size(); ++i)
-        if (has_usual_name(level.places[i].name) || has_usual_name(level.places[i].type)) named.push_back(i);
+        if (const NamedPlace<D>& place = level.places[i];
+            (has_usual_name(place.name) || has_usual_name(place.type)) && !is_anywhere(place))
+            named.push_back(i);
     std::vector<std::size_t> result;
     for (const std::size_t i : named)
         if (std::none_of(named.begin(), named.end(), [&](std::size_t other) {

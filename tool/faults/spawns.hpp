@@ -44,7 +44,7 @@ template <int D>
 std::vector<std::size_t> matching_places(const LevelView<D>& level, const std::string& pattern);
 
 /// Places whose name or class contains "spawn", "player_start", "playerstart" or "player start", in any case. Groups,
-/// which have such places below them, are left out.
+/// which have such places below them, are left out, and in 2D points at the origin: they stand for the whole map.
 template <int D>
 std::vector<std::size_t> default_spawns(const LevelView<D>& level);
 
