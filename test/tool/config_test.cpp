@@ -41,7 +41,7 @@ TEST_F(Config, OptionsAreReadBesideTheLevelAndAbove) {
     write("a/b/abut.toml", "");
     checked({below}, 1);
     checked({below, "--config", (folder() / "a/abut.toml").string()}, 0);
-    EXPECT_EQ(refusal({"check", below, "--config", "none.toml"}), "abut: none.toml: it doesn't exist");
+    EXPECT_EQ(refusal({"check", below, "--config", "none.toml"}), "abut: none.toml: no such file");
 }
 
 TEST_F(Config, AllFormsOfValues) {

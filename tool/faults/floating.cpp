@@ -9,23 +9,23 @@
 namespace abut::tool {
 namespace {
 
-// The box without limits along the up direction, and the height of its lowest point.
+// The height of the lowest point.
 template <int D>
-struct Column {
-    Aabb<D> box;
-    float bottom = 0;
-};
+float bottom_of(const Aabb<D>& box, const Vec<D>& up) {
+    for (int i = 0; i < D; ++i)
+        if (up[i] != 0) return up[i] > 0 ? box.min[i] : -box.max[i];
+    return 0;
+}
 
+// The box without limits along the up direction.
 template <int D>
-Column<D> column_of(const Aabb<D>& box, const Vec<D>& up) {
-    Column<D> column{box, 0};
+Aabb<D> column_of(Aabb<D> box, const Vec<D>& up) {
     for (int i = 0; i < D; ++i) {
         if (up[i] == 0) continue;
-        column.bottom = up[i] > 0 ? box.min[i] : -box.max[i];
-        column.box.min[i] = std::numeric_limits<float>::lowest();
-        column.box.max[i] = std::numeric_limits<float>::max();
+        box.min[i] = std::numeric_limits<float>::lowest();
+        box.max[i] = std::numeric_limits<float>::max();
     }
-    return column;
+    return box;
 }
 
 }  // namespace
@@ -46,10 +46,10 @@ std::vector<FloatingObject<D>> find_floating(const std::vector<ViewedObject<D>>&
             return !rests;
         });
         if (rests) continue;
-        const Column<D> column = column_of(boxes[i], up);
+        const float bottom = bottom_of(boxes[i], up);
         FloatingObject<D> floating{i, i, std::numeric_limits<float>::infinity(), {}};
-        tree.each_overlapping(column.box, [&](std::uint32_t j) {
-            if (j == i || column_of(boxes[j], up).bottom >= column.bottom) return;
+        tree.each_overlapping(column_of(boxes[i], up), [&](std::uint32_t j) {
+            if (j == i || bottom_of(boxes[j], up) >= bottom) return;
             const Closest<D> gap = closest(objects[i].shape, objects[j].shape);
             const bool is_nearer =
                 gap.distance < floating.distance || (gap.distance == floating.distance && j < floating.nearest);
