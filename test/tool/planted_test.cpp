@@ -15,7 +15,7 @@ using test::Json;
 using test::Ran;
 using test::Triangles;
 
-// A closed barrel of 24 staves with its foot at the origin; `open` leaves out a triangle of its lid.
+// A closed barrel of 24 staves that stands on the origin; `open` leaves out a triangle of its lid.
 Triangles barrel(float radius, float height, bool open) {
     constexpr std::uint32_t count = 24;
     Triangles result;

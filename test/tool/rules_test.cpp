@@ -100,10 +100,10 @@ TEST_F(Rules, OnlyAndNo) {
     EXPECT_EQ(no["leaks"].size(), 1u);
     EXPECT_EQ(refusal({"check", file, "--only", "leaks"}),
               "abut: --only: 'leaks' is no kind and no code; the kinds are spawn, inside, contact, gap, "
-                  "duplicate, leak, floating");
+              "duplicate, leak, floating");
     EXPECT_EQ(refusal({"check", file, "--severity", "leak=fatal"}),
               "abut: --severity: 'leak=fatal' is no KIND=SEVERITY, such as leak=error; the severities "
-                  "are off, warning and error");
+              "are off, warning and error");
 }
 
 TEST_F(Rules, IgnoreTakesPairsObjectsAndCodes) {
@@ -122,14 +122,14 @@ TEST_F(Rules, IgnoreTakesPairsObjectsAndCodes) {
     EXPECT_EQ(unused["warnings"][0], "--ignore: 'Barrel:*' matches no finding");
     EXPECT_EQ(refusal({"check", file, "--ignore", "a:b:c"}),
               "abut: --ignore: 'a:b:c' is not one pattern, or two with one ':' between them (a ':' in a "
-                  "name is matched by '?'), after a code and a blank or alone");
+              "name is matched by '?'), after a code and a blank or alone");
 }
 
 TEST_F(Rules, ObjectsOfOneBodyMayOverlap) {
     GltfBuilder builder;
     const int mesh = builder.add_mesh("Box", box_triangles({0.5f, 0.5f, 0.5f}));
     builder.add_node("Lamp", ",\"children\":[1,2]");
-    builder.add_node("Foot", mesh);
+    builder.add_node("Stand", mesh);
     builder.add_node("Shade", mesh, {0, 0.75f, 0});
     builder.add_node("Wall", mesh, {0.75f, 0, 0});
     builder.add_text(",\"scenes\":[{\"nodes\":[0,3]}],\"scene\":0");

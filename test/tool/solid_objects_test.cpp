@@ -104,7 +104,8 @@ TEST_F(SolidObjectsInMaps, AreasOfSpawnsNeedOneFreePlace) {
     ASSERT_EQ(json["spawns"].size(), 1u);
     EXPECT_EQ(json["spawns"][0]["position"], Json({16.0, 8.0}));
     const std::string anywhere = "<object name='wolves' type='spawn' x='0' y='0'/>";
-    EXPECT_EQ(checked({map(tiles("Collision", "1,1,1,0,1,1,1,0") + things("Objects", anywhere))}, 0)["spawn_points"], 0);
+    EXPECT_EQ(checked({map(tiles("Collision", "1,1,1,0,1,1,1,0") + things("Objects", anywhere))}, 0)["spawn_points"],
+              0);
 }
 
 }  // namespace

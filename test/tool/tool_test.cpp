@@ -373,8 +373,8 @@ TEST_F(Tool, TellsSpawnsGapsDuplicatesAndLeaks) {
     EXPECT_EQ(json["contacts"].size(), 1u) << "what is there twice touches, as it always did";
 
     const Ran text = run({"check", file, "--gap", "0.7", "--closed", "O*"});
-    for (const char* part : {"spawns (ABUT301)\n", "gaps (ABUT401)\n", "duplicates (ABUT501)\n", "leaks (ABUT601)\n", "again as B copy",
-                             "is 0.25 deep in A; free at", "0.5 wide at", "a hole of 3 edges",
+    for (const char* part : {"spawns (ABUT301)\n", "gaps (ABUT401)\n", "duplicates (ABUT501)\n", "leaks (ABUT601)\n",
+                             "again as B copy", "is 0.25 deep in A; free at", "0.5 wide at", "a hole of 3 edges",
                              "FAULTS FOUND: 1 spawn is blocked or out of place, 1 pair collides, "})
         EXPECT_NE(text.out.find(part), std::string::npos) << part << " in\n" << text.out;
 

@@ -48,7 +48,7 @@ Walkable<D>::Walkable(const FacetTree<D>& facets, const Character& character, co
     }
 }
 
-// The feet of a character at a place.
+// The lowest point of a character at a place.
 template <int D>
 DVec<D> Walkable<D>::at(const Place& place) const {
     DVec<D> point(0.0);
@@ -57,12 +57,12 @@ DVec<D> Walkable<D>::at(const Place& place) const {
 }
 
 template <int D>
-bool Walkable<D>::fits(const DVec<D>& feet) const {
+bool Walkable<D>::fits(const DVec<D>& bottom) const {
     const double radius = radius_ * (1 - thinner);
-    if (!has_ground()) return !facets_.has_within(feet, radius) && !facets_.is_inside(feet);
+    if (!has_ground()) return !facets_.has_within(bottom, radius) && !facets_.is_inside(bottom);
     const double high = height_ - radius_, low = std::min(radius_ + step_, high);
-    return !facets_.has_within(feet + up_ * low, feet + up_ * high, radius) &&
-           !facets_.is_inside(feet + up_ * (0.5 * (low + high)));
+    return !facets_.has_within(bottom + up_ * low, bottom + up_ * high, radius) &&
+           !facets_.is_inside(bottom + up_ * (0.5 * (low + high)));
 }
 
 // The height of the ground below a point, if the character can stand on it.

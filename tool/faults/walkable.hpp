@@ -1,6 +1,6 @@
 #pragma once
 
-// Where a character gets on foot from the spawns of a level, on a grid whose cells are as wide as its radius.
+// Where a character gets by walking from the spawns of a level, on a grid whose cells are as wide as its radius.
 //
 // In 3D the character is a capsule that stands on the ground. It climbs steps of a quarter of its height and slopes of
 // 60 degrees, and falls any distance onto ground. In 2D, and without an up direction, it is a ball that moves anywhere.
@@ -45,7 +45,7 @@ private:
     };
 
     DVec<D> at(const Place& place) const;
-    bool fits(const DVec<D>& feet) const;
+    bool fits(const DVec<D>& bottom) const;
     std::optional<double> ground_below(const DVec<D>& point) const;
     bool add(const Place& place);
     void start(const DVec<D>& spawn);
