@@ -141,7 +141,7 @@ TEST_F(ManyFiles, GithubAnnotationsAreOneLineEach) {
               std::string::npos)
         << line;
     EXPECT_TRUE(line.starts_with("::error file=")) << line;
-    EXPECT_EQ(refusal({"check", deep, "--github", "--json"}), "abut: --json excludes --github");
+    EXPECT_EQ(refusal({"check", deep, "--github", "--json"}), "abut: --github excludes --json");
 }
 
 }  // namespace
