@@ -5,6 +5,10 @@
 #include <string>
 #include <system_error>
 
+#if __has_include(<unistd.h>)
+#include <unistd.h>
+#endif
+
 namespace abut {
 namespace {
 
@@ -17,9 +21,19 @@ Problem write_problem(int error) {
     return write_problem(std::generic_category().message(error));
 }
 
+/// Brings the file's bytes to its medium. Pipes and the like have none.
+bool synchronize(std::FILE* file) {
+    if (std::fflush(file) != 0) return false;
+#if __has_include(<unistd.h>)
+    return fsync(fileno(file)) == 0 || errno == EINVAL || errno == EROFS || errno == ENOTSUP;
+#else
+    return true;
+#endif
+}
+
 std::optional<Problem> write_all(std::FILE* file, std::span<const std::byte> bytes) {
     errno = 0;
-    const bool is_written = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
+    const bool is_written = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size() && synchronize(file);
     const int error = errno;
     errno = 0;
     if (std::fclose(file) != 0) return write_problem(errno);
@@ -60,6 +74,10 @@ std::optional<Problem> write_file(const fs::path& file, std::span<const std::byt
     const TemporaryFile temporary = open_temporary(target);
     if (temporary.file == nullptr) return write_problem(errno);
     std::optional<Problem> problem = write_all(temporary.file, bytes);
+    if (!problem && fs::exists(status)) {
+        fs::permissions(temporary.path, status.permissions(), error);
+        if (error) problem = write_problem(error.message());
+    }
     if (!problem) {
         fs::rename(temporary.path, target, error);
         if (error) problem = write_problem(error.message());

@@ -106,7 +106,9 @@ TEST_F(WriteMesh, ComesBackAsItWas) {
             ASSERT_FALSE(problem) << problem->message;
             const float ulps = file.extension() == ".obj" ? 2 : 0;
             expect_same(read_scene(file), parts, ulps);
-            expect_same(read_assimp(file, {}), parts, ulps);
+            const Result<ReadScene> other = read_assimp(file, {});
+            ASSERT_TRUE(other) << other.problem().message;
+            expect_same(other->scene, parts, ulps);
         }
         EXPECT_EQ(files_in_folder(), 4u);
     }
@@ -232,6 +234,16 @@ TEST_F(WriteMesh, FilesAreReplacedAsAWhole) {
     const std::optional<Problem> full = write_file("/dev/full", "too much");
     ASSERT_TRUE(full);
     EXPECT_EQ(full->message, "can't be written: No space left on device");
+}
+
+TEST_F(WriteMesh, ReplacedFilesKeepTheirMode) {
+    const std::filesystem::path file = write("file", "old");
+    const auto mode = std::filesystem::perms::owner_read | std::filesystem::perms::owner_write |
+                      std::filesystem::perms::group_write | std::filesystem::perms::others_exec;
+    std::filesystem::permissions(file, mode);
+    EXPECT_FALSE(write_file(file, "new"));
+    EXPECT_EQ(text_of(file), "new");
+    EXPECT_EQ(std::filesystem::status(file).permissions(), mode);
 }
 
 TEST(Base64, IsWhatComesBack) {
