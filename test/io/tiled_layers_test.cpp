@@ -11,6 +11,7 @@ namespace abut {
 namespace {
 
 using test::Beside;
+using test::bytes_of_text;
 using test::read_as_text;
 using test::tiles_tsj;
 using test::tiles_tsx;
@@ -225,7 +226,7 @@ TEST(TiledLayers, SaysWhatIsWrongAndWhere) {
     EXPECT_EQ(base64("AQAAAA==", "lzma"), "PROBLEM: line 3: layer 'L': unknown compression 'lzma'\n");
     EXPECT_EQ(read_as_text(".tmx", tmx("<layer name='L'/>")), "PROBLEM: line 3: layer 'L': no data\n");
     EXPECT_EQ(read_as_text(".tmx", "<map orientation='hexagonal' tilewidth='1' tileheight='1'/>"),
-              "PROBLEM: line 1: the map is hexagonal; only orthogonal ones are read\n");
+              "PROBLEM: line 1: the map is hexagonal; only orthogonal and isometric ones are read\n");
     EXPECT_EQ(read_as_text(".tmx", "<map tilewidth='0' tileheight='1'/>"),
               "PROBLEM: line 1: tilewidth and tileheight must be above 0\n");
     EXPECT_EQ(read_as_text(".tmx", "<map"), "PROBLEM: line 1: XML: error parsing start element tag\n");
@@ -259,6 +260,24 @@ TEST(TiledLayers, TheBundledLevelIsTheSameInBothFormats) {
     EXPECT_EQ(points_called(*json, "spawn")[0]->position, Vec2(40, 150));
     EXPECT_EQ(points_called(*json, "Exit").size(), 1u);
     EXPECT_EQ(*property(json->points[0].properties, "facing"), "right");
+}
+
+// A diamond of the screen is a square of the ground, as high as the diamond; there Tiled measures objects too.
+TEST(TiledLayers, IsometricMapsAreReadOnTheGround) {
+    const std::string map =
+        "<map orientation='isometric' width='2' height='2' tilewidth='64' tileheight='32'>"
+        "<layer name='L' width='2' height='2'><data encoding='csv'>0,1,0,0</data></layer>"
+        "<objectgroup name='O'><object id='1' x='32' y='0' width='32' height='32'/></objectgroup></map>";
+    const Result<Level> level = read_level(bytes_of_text(map), ".tmx", [](const std::string&) {
+        return Result<std::vector<std::byte>>(Problem{ProblemCode::not_found, "none"});
+    });
+    ASSERT_TRUE(level) << level.problem().message;
+    ASSERT_EQ(level->objects.size(), 2u);
+    const auto* tiles = std::get_if<TileMap>(&level->objects[0].shape);
+    ASSERT_NE(tiles, nullptr);
+    EXPECT_EQ(tiles->box(1).min, Vec2(32, 0));
+    EXPECT_EQ(tiles->box(1).max, Vec2(64, 32));
+    EXPECT_EQ(bounds(level->objects[1]).min, Vec2(32, 0)) << "the object lies on the tile";
 }
 
 }  // namespace

@@ -48,14 +48,17 @@ void read_type(const Fields& fields, std::string& type) {
 
 void read_map(const Fields& fields, Map& map, Defects& defects) {
     const std::string orientation = fields.has("orientation") ? fields.text("orientation") : "orthogonal";
-    if (orientation != "orthogonal")
+    map.is_isometric = orientation == "isometric";
+    if (orientation != "orthogonal" && !map.is_isometric)
         defects.fail(ProblemCode::bad_argument,
-                     fields.where() + "the map is " + orientation + "; only orthogonal ones are read");
+                     fields.where() + "the map is " + orientation + "; only orthogonal and isometric ones are read");
     map.columns = fields.count("width", 0, defects);
     map.rows = fields.count("height", 0, defects);
     map.cell = {fields.number("tilewidth", 0, defects), fields.number("tileheight", 0, defects)};
     if (!(map.cell.x > 0 && map.cell.y > 0))
         defects.fail(ProblemCode::bad_format, fields.where() + "tilewidth and tileheight must be above 0");
+    // On the ground, where Tiled measures the objects of such a map, a cell is a square.
+    if (map.is_isometric) map.cell.x = map.cell.y;
 }
 
 void read_layer(const Fields& fields, Layer& layer, Defects& defects) {

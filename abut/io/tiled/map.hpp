@@ -69,6 +69,7 @@ struct Tileset {
 struct Map {
     std::uint32_t columns = 0, rows = 0;
     detail::DVec<2> cell{0};
+    bool is_isometric = false;      ///< positions are on the ground, and not on the screen
     std::vector<Tileset> tilesets;  ///< sorted by first gid
     std::vector<Layer> layers;
 };

@@ -225,6 +225,10 @@ Result<Level> Builder::build() {
     layers(map_.layers, "", DVec<2>(0));
     if (problem_) return *problem_;
     level_.warnings = left_out_.lines();
+    if (map_.is_isometric)
+        level_.warnings.push_back(
+            "the map is isometric: positions are on the ground, where a cell is a square, and tiles with shapes are "
+            "full");
     if (uses_all_tiles_) level_.warnings.push_back("no tileset has collision shapes: every tile is taken as full");
     return std::move(level_);
 }

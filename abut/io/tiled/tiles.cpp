@@ -165,6 +165,8 @@ Result<TileCollision> Tiles::compute_collision(std::uint32_t gid) const {
     const TileData* tile = tile_of(gid);
     if (!have_shapes_) return TileCollision{Tile::full, {}};
     if (tile == nullptr || tile->shapes.empty()) return TileCollision{};
+    // Shapes are drawn on the picture of the tile, which shows the ground from an angle.
+    if (map_.is_isometric) return TileCollision{Tile::full, {}};
     const Tileset& tileset = *tileset_of(gid);
     DVec<2> size = size_of(gid);
     Affine<2> map = flipped(gid, size);
