@@ -40,6 +40,7 @@ install(FILES ${PROJECT_SOURCE_DIR}/abut/field/abut_field.glsl DESTINATION ${CMA
 install(FILES ${PROJECT_SOURCE_DIR}/packaging/debug/abut_gdb.py ${PROJECT_SOURCE_DIR}/packaging/debug/abut.natvis
     DESTINATION ${CMAKE_INSTALL_DATADIR}/abut)
 
+get_property(ABUT_IO_PACKAGES GLOBAL PROPERTY ABUT_IO_PACKAGES)
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/abutConfig.cmake.in ${PROJECT_BINARY_DIR}/abutConfig.cmake
     INSTALL_DESTINATION ${package_dir})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/abutConfigVersion.cmake COMPATIBILITY SameMinorVersion)

@@ -48,7 +48,7 @@ TEST_F(ReadGltf, AgreesWithAssimp) {
     const std::filesystem::path file = std::filesystem::path(ABUT_SCENE_FOLDER) / "level.gltf";
     const Result<Scene> ours = read_scene(file);
     ASSERT_TRUE(ours) << ours.problem().message;
-    Result<Scene> other = detail::read_assimp(file, {});
+    Result<detail::ReadScene> other = detail::read_assimp(file, {});
     ASSERT_TRUE(other) << other.problem().message;
     const Result<Scene> theirs = detail::finish_scene(*std::move(other), {});
     ASSERT_TRUE(theirs) << theirs.problem().message;
@@ -81,9 +81,9 @@ TEST_F(ReadGltf, ThroughAssimpNodesOfOneNameAreWarnedOf) {
     builder.add_motion(1, "Fall", {0, 1}, {{0, 0, 0}, {0, 8, 0}});
     builder.add_text(R"(,"scenes":[{"nodes":[0,1]}],"scene":0)");
     const std::string text = builder.text();
-    const Result<Scene> scene = detail::read_assimp(test::bytes_of(text), ".gltf", {});
+    const Result<detail::ReadScene> scene = detail::read_assimp(test::bytes_of(text), ".gltf", {});
     ASSERT_TRUE(scene) << scene.problem().message;
-    EXPECT_EQ(scene->warnings,
+    EXPECT_EQ(scene->scene.warnings,
               std::vector<std::string>{"several nodes are named 'Crate': the first is taken for the one that moves"});
     EXPECT_TRUE(read(text).warnings.empty());
 }
@@ -228,11 +228,21 @@ TEST_F(ReadGltf, WhatPointsNowhereIsNamed) {
               "mesh 'M': accessors[0]: buffers[0] is truncated: 0 of 36 bytes");
 }
 
-TEST_F(ReadGltf, CompressionThatNobodyReadsIsNamed) {
+TEST_F(ReadGltf, UnknownExtensionsThatAreRequiredAreNamed) {
     GltfBuilder builder;
     builder.add_node("A", builder.add_mesh("A", test::box_triangles({1, 1, 1})));
-    builder.add_text(R"(,"extensionsRequired":["EXT_meshopt_compression"])");
-    EXPECT_EQ(complaint(builder.text()), "needs the extension EXT_meshopt_compression, which can't be read");
+    GltfBuilder harmless = builder;
+    builder.add_text(R"(,"extensionsRequired":["KHR_lights_punctual","ACME_soft_mesh"])");
+    EXPECT_EQ(complaint(builder.text()),
+              "requires the extension 'ACME_soft_mesh', which abut doesn't know: export without it");
+    harmless.add_text(
+        R"(,"extensionsRequired":["KHR_lights_punctual","KHR_materials_unlit","KHR_texture_basisu","KHR_mesh_quantization"])");
+    EXPECT_EQ(complaint(harmless.text()), "");
+}
+
+TEST_F(ReadGltf, Version1IsRefusedWithAReason) {
+    EXPECT_EQ(complaint(R"({"asset":{"version":"1.0"},"nodes":{}})"),
+              "is glTF 1.0, which was replaced in 2017 and is not read: export it as glTF 2.0");
 }
 
 }  // namespace

@@ -332,9 +332,9 @@ TEST_F(ReadScene, WarnsOnceOfWhatItTakesDifferently) {
     const Result<Scene> scene = read_scene(write("odd.gltf", builder.text()));
     ASSERT_TRUE(scene) << scene.problem().message;
     EXPECT_EQ(scene->warnings, (std::vector<std::string>{
-                                   "instances made by EXT_mesh_gpu_instancing are left out, except the node itself",
-                                   "skinned meshes are taken in their bind pose",
-                                   "points and lines are left out: only triangles collide"}));
+                                   "points and lines are left out: only triangles collide",
+                                   "skinned meshes are posed as at the first time, and move with the root of their "
+                                   "joints"}));
 }
 
 }  // namespace

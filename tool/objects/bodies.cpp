@@ -1,9 +1,11 @@
 #include "tool/objects/bodies.hpp"
 
 #include "tool/shared/name_pattern.hpp"
+#include <abut/io/mesh/collider_names.hpp>
 
 #include <map>
 #include <string_view>
+#include <utility>
 
 namespace abut::tool {
 namespace {
@@ -28,11 +30,17 @@ Result<std::vector<std::uint32_t>> bodies_of(const Scene& scene, const SceneObje
             if (matches_name(pattern, NodeName{path(scene, i), scene.nodes[i].name, {}})) is_body[i] = any = true;
         if (!any) return unmatched(pattern);
     }
+    // The colliders of one thing, such as UCX_Crate_01 and UCX_Crate_02, are one body as well.
+    std::map<std::pair<std::uint32_t, std::string_view>, std::uint32_t> colliders;
     std::vector<std::uint32_t> bodies;
     for (std::size_t i = 0; i < objects.size(); ++i) {
-        std::uint32_t node = objects.node(i);
+        const std::uint32_t own = objects.node(i);
+        std::uint32_t node = own;
         while (node != SceneNode::no_parent && !is_body[node]) node = scene.nodes[node].parent;
-        bodies.push_back(node == SceneNode::no_parent ? objects.node(i) : node);
+        const std::string& name = scene.nodes[own].name;
+        if (node == SceneNode::no_parent && detail::collider_name(name))
+            node = colliders.try_emplace({scene.nodes[own].parent, detail::body_name(name)}, own).first->second;
+        bodies.push_back(node == SceneNode::no_parent ? own : node);
     }
     return bodies;
 }

@@ -1,5 +1,6 @@
 #include <abut/io/file/base64.hpp>
 #include <abut/io/gltf/accessors.hpp>
+#include <abut/io/gltf/decompress.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -120,6 +121,7 @@ AccessorReader::AccessorReader(const Document& document, detail::ReferencedFiles
     : document_(document),
       files_(std::move(files)),
       loaded_(document.buffers.size()),
+      decoded_(document.compressions.size()),
       is_loaded_(document.buffers.size(), false) {}
 
 Result<std::span<const std::byte>> AccessorReader::buffer(std::uint32_t index) {
@@ -142,26 +144,49 @@ Result<std::span<const std::byte>> AccessorReader::buffer(std::uint32_t index) {
     return bytes.first(buffer.length);
 }
 
+Result<std::span<const std::byte>> AccessorReader::range(std::uint32_t index, std::uint64_t offset,
+                                                         std::uint64_t length, const std::string& where) {
+    if (index == no_index) return Problem{ProblemCode::bad_format, where + ".buffer: an index was expected"};
+    const Result<std::span<const std::byte>> bytes = buffer(index);
+    if (!bytes) return bytes.problem();
+    if (offset > bytes->size() || length > bytes->size() - offset)
+        return Problem{ProblemCode::index_out_of_range, where + " reaches past the end of its buffer"};
+    return bytes->subspan(offset, length);
+}
+
+Result<std::span<const std::byte>> AccessorReader::view(std::uint32_t index) {
+    const BufferView& view = document_.views[index];
+    const std::string where = text("bufferViews", index);
+    if (view.compression == no_index) return range(view.buffer, view.offset, view.length, where);
+    std::vector<std::byte>& decoded = decoded_[view.compression];
+    if (decoded.empty()) {
+        const Compression& compression = document_.compressions[view.compression];
+        const Result<std::span<const std::byte>> bytes =
+            range(compression.buffer, compression.offset, compression.length, where);
+        if (!bytes) return bytes.problem();
+        Result<std::vector<std::byte>> result = decode_meshopt(compression, *bytes);
+        if (!result) return Problem{result.problem().code, where + ": " + result.problem().message};
+        decoded = *std::move(result);
+    }
+    return std::span<const std::byte>(decoded);
+}
+
 // `count` elements of `size` bytes in a buffer view. Requires count >= 1 and 1 <= size <= 64.
 Result<AccessorReader::Elements> AccessorReader::elements(std::uint32_t view_index, std::uint64_t offset,
                                                           std::uint64_t count, std::uint64_t size) {
     const BufferView& view = document_.views[view_index];
-    if (view.buffer == no_index)
-        return Problem{ProblemCode::bad_format, text("bufferViews", view_index) + ".buffer: an index was expected"};
-    const Result<std::span<const std::byte>> bytes = buffer(view.buffer);
+    const Result<std::span<const std::byte>> bytes = this->view(view_index);
     if (!bytes) return bytes.problem();
-    if (view.offset > bytes->size() || view.length > bytes->size() - view.offset)
-        return Problem{ProblemCode::index_out_of_range,
-                       text("bufferViews", view_index) + " reaches past the end of its buffer"};
-    const std::uint64_t stride = view.stride == 0 ? size : view.stride;
-    const bool fits =
-        offset <= view.length && size <= view.length - offset && count - 1 <= (view.length - offset - size) / stride;
+    const std::uint64_t own_stride =
+        view.compression == no_index ? view.stride : document_.compressions[view.compression].stride;
+    const std::uint64_t stride = own_stride == 0 ? size : own_stride;
+    const std::uint64_t length = bytes->size();
+    const bool fits = offset <= length && size <= length - offset && count - 1 <= (length - offset - size) / stride;
     if (!fits)
-        return Problem{ProblemCode::index_out_of_range, text("bufferViews", view_index) + " has " +
-                                                            std::to_string(view.length) + " bytes, too few for " +
-                                                            std::to_string(count) + " elements of " +
-                                                            std::to_string(size) + " bytes"};
-    return Elements{bytes->subspan(view.offset + offset), stride};
+        return Problem{ProblemCode::index_out_of_range,
+                       text("bufferViews", view_index) + " has " + std::to_string(length) + " bytes, too few for " +
+                           std::to_string(count) + " elements of " + std::to_string(size) + " bytes"};
+    return Elements{bytes->subspan(offset), stride};
 }
 
 template <class Number, class Convert>

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace abut::gltf {
@@ -25,10 +26,15 @@ public:
     /// One unsigned integer per element.
     Result<std::vector<std::uint32_t>> indices(std::uint32_t accessor);
 
+    /// The bytes of a buffer view, decompressed.
+    Result<std::span<const std::byte>> view(std::uint32_t view);
+
 private:
     struct Elements;
 
     Result<std::span<const std::byte>> buffer(std::uint32_t buffer);
+    Result<std::span<const std::byte>> range(std::uint32_t buffer, std::uint64_t offset, std::uint64_t length,
+                                             const std::string& where);
     Result<Elements> elements(std::uint32_t view, std::uint64_t offset, std::uint64_t count, std::uint64_t size);
     template <class Number, class Convert>
     Result<std::vector<Number>> read(std::uint32_t accessor, std::uint32_t components, Convert convert);
@@ -36,6 +42,7 @@ private:
     const Document& document_;
     detail::ReferencedFiles files_;
     std::vector<std::vector<std::byte>> loaded_;
+    std::vector<std::vector<std::byte>> decoded_;  ///< by Document::compressions; empty: not yet
     std::vector<bool> is_loaded_;
 };
 

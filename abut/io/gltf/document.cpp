@@ -1,5 +1,7 @@
 #include <abut/io/gltf/container.hpp>
 #include <abut/io/gltf/document.hpp>
+#include <abut/io/gltf/extensions-inl.h>
+#include <abut/io/gltf/json-inl.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,168 +12,37 @@
 #include <utility>
 
 #include <glm/ext/quaternion_geometric.hpp>
-#include <nlohmann/json.hpp>
 
 namespace abut::gltf {
 namespace {
 
 using detail::no_index;
 
-using Json = nlohmann::json;
-
-// The array element that a message refers to.
-struct Where {
-    const char* array;
-    std::size_t index;
-};
-
-std::string text(const Where& where) {
-    return std::string(where.array) + "[" + std::to_string(where.index) + "]";
-}
-
-const Json* member(const Json& object, const char* key) {
-    if (!object.is_object()) return nullptr;
-    const auto found = object.find(key);
-    return found == object.end() ? nullptr : &*found;
-}
-
-// Names only serve people, so a name of the wrong type is ignored.
-std::string name_in(const Json& object) {
-    const Json* name = member(object, "name");
-    return name != nullptr && name->is_string() ? name->get<std::string>() : std::string();
-}
-
 // Reads the JSON in one pass. Only the first error is recorded; invalid values are replaced by defaults until the end.
-class DocumentReader {
+class DocumentReader : FieldReader {
 public:
-    explicit DocumentReader(const Json& root) : root_(root) {}
+    explicit DocumentReader(const Json& root) : FieldReader(root) {}
 
     Result<Document> read(std::span<const std::byte> binary);
 
 private:
-    void fail(ProblemCode code, std::string message) {
-        if (!problem_) problem_ = Problem{code, std::move(message)};
-    }
-    void fail(const Where& where, const char* key, const char* what) {
-        fail(ProblemCode::bad_format, text(where) + "." + key + ": " + what);
-    }
-
-    std::size_t count(const char* array) const {
-        const Json* found = member(root_, array);
-        return found == nullptr ? 0 : found->size();
-    }
-    template <class Visit>
-    void each(const char* array, Visit visit);
-    template <class Visit>
-    void each_member(const Json& object, const char* key, const Where& where, Visit visit);
-
-    std::optional<std::uint64_t> unsigned_integer(const Json& value);
-    std::uint64_t unsigned_integer(const Json& object, const char* key, std::uint64_t default_value,
-                                   const Where& where);
-    std::uint32_t type_number(const Json& object, const char* key, std::uint32_t default_value, const Where& where);
-    std::uint32_t index(const Json& value, std::size_t size, const Where& where, const char* key);
-    std::uint32_t index(const Json& object, const char* key, const char* array, const Where& where);
-    template <int N>
-    bool numbers(const Json& object, const char* key, double (&out)[N], const Where& where);
-
     void read_version();
     void read_buffers();
     void read_accessors();
     void read_sparse(const Json& json, Accessor& accessor, const Where& where);
+    void read_draco(const Json& json, Primitive& primitive, const Where& where);
+    std::vector<double> number_list(const Json& json, const char* key, const Where& where);
     void read_meshes();
+    void read_skins();
     void read_nodes();
     void read_version_1_nodes();
     void read_roots();
     void read_animations();
     void check_tree();
 
-    const Json& root_;
     Document document_;
     std::vector<std::uint32_t> parents_;
-    std::optional<Problem> problem_;
 };
-
-template <class Visit>
-void DocumentReader::each(const char* array, Visit visit) {
-    const Json* found = member(root_, array);
-    if (found == nullptr) return;
-    if (!found->is_array()) return fail(ProblemCode::bad_format, std::string(array) + ": an array was expected");
-    std::size_t i = 0;
-    for (const Json& element : *found) {
-        if (!element.is_object()) return fail(ProblemCode::bad_format, text({array, i}) + ": an object was expected");
-        visit(element, Where{array, i++});
-    }
-}
-
-template <class Visit>
-void DocumentReader::each_member(const Json& object, const char* key, const Where& where, Visit visit) {
-    const Json* found = member(object, key);
-    if (found == nullptr) return;
-    if (!found->is_array()) return fail(where, key, "an array was expected");
-    for (const Json& element : *found) visit(element);
-}
-
-// Accepts 3.0 for 3: some exporters write integers as floats.
-std::optional<std::uint64_t> DocumentReader::unsigned_integer(const Json& value) {
-    if (value.is_number_unsigned()) return value.get<std::uint64_t>();
-    if (!value.is_number_float()) return std::nullopt;
-    const double number = value.get<double>();
-    constexpr double max_exact = 9007199254740992.0;  // 2^53: larger integers are not all representable
-    if (!(number >= 0 && number <= max_exact && number == std::floor(number))) return std::nullopt;
-    return static_cast<std::uint64_t>(number);
-}
-
-std::uint64_t DocumentReader::unsigned_integer(const Json& object, const char* key, std::uint64_t default_value,
-                                               const Where& where) {
-    const Json* value = member(object, key);
-    if (value == nullptr) return default_value;
-    const std::optional<std::uint64_t> number = unsigned_integer(*value);
-    if (!number) fail(where, key, "a whole number was expected");
-    return number.value_or(default_value);
-}
-
-std::uint32_t DocumentReader::type_number(const Json& object, const char* key, std::uint32_t default_value,
-                                          const Where& where) {
-    const std::uint64_t number = unsigned_integer(object, key, default_value, where);
-    return static_cast<std::uint32_t>(std::min<std::uint64_t>(number, no_index));
-}
-
-std::uint32_t DocumentReader::index(const Json& value, std::size_t size, const Where& where, const char* key) {
-    const std::optional<std::uint64_t> number = unsigned_integer(value);
-    if (!number) {
-        fail(where, key, "a whole number was expected");
-    } else if (*number >= size) {
-        fail(ProblemCode::index_out_of_range, text(where) + "." + key + ": index " + std::to_string(*number) +
-                                                  " is out of range (" + std::to_string(size) + " exist)");
-    } else {
-        return static_cast<std::uint32_t>(*number);
-    }
-    return no_index;
-}
-
-std::uint32_t DocumentReader::index(const Json& object, const char* key, const char* array, const Where& where) {
-    const Json* value = member(object, key);
-    return value == nullptr ? no_index : index(*value, count(array), where, key);
-}
-
-template <int N>
-bool DocumentReader::numbers(const Json& object, const char* key, double (&out)[N], const Where& where) {
-    const Json* value = member(object, key);
-    if (value == nullptr) return false;
-    if (!value->is_array() || value->size() != N) {
-        fail(where, key, "an array of numbers was expected, of another length");
-        return false;
-    }
-    std::size_t i = 0;
-    for (const Json& element : *value) {
-        if (!element.is_number()) {
-            fail(where, key, "a number was expected");
-            return false;
-        }
-        out[i++] = element.get<double>();
-    }
-    return true;
-}
 
 void DocumentReader::read_version() {
     const Json* asset = member(root_, "asset");
@@ -244,6 +115,26 @@ void DocumentReader::read_accessors() {
     });
 }
 
+void DocumentReader::read_draco(const Json& json, Primitive& primitive, const Where& where) {
+    primitive.draco_view = index(json, "bufferView", "bufferViews", where);
+    const Json* attributes = member(json, "attributes");
+    if (primitive.draco_view == no_index || attributes == nullptr)
+        return fail(where, "KHR_draco_mesh_compression", "bufferView or attributes are missing");
+    primitive.draco_positions = type_number(*attributes, "POSITION", no_index, where);
+    primitive.draco_normals = type_number(*attributes, "NORMAL", no_index, where);
+    primitive.draco_joints = type_number(*attributes, "JOINTS_0", no_index, where);
+    primitive.draco_weights = type_number(*attributes, "WEIGHTS_0", no_index, where);
+}
+
+std::vector<double> DocumentReader::number_list(const Json& json, const char* key, const Where& where) {
+    std::vector<double> result;
+    each_member(json, key, where, [&](const Json& value) {
+        if (!value.is_number()) return fail(where, key, "a number was expected");
+        result.push_back(value.get<double>());
+    });
+    return result;
+}
+
 void DocumentReader::read_meshes() {
     each("meshes", [&](const Json& json, const Where& where) {
         Mesh mesh;
@@ -253,15 +144,29 @@ void DocumentReader::read_meshes() {
             if (const Json* attributes = member(part, "attributes")) {
                 primitive.positions = index(*attributes, "POSITION", "accessors", where);
                 primitive.normals = index(*attributes, "NORMAL", "accessors", where);
+                primitive.joints = index(*attributes, "JOINTS_0", "accessors", where);
+                primitive.weights = index(*attributes, "WEIGHTS_0", "accessors", where);
             }
             primitive.indices = index(part, "indices", "accessors", where);
             primitive.mode = type_number(part, "mode", 4, where);
-            const Json* extensions = member(part, "extensions");
-            primitive.draco = extensions != nullptr && member(*extensions, "KHR_draco_mesh_compression") != nullptr;
-            mesh.morphs = mesh.morphs || member(part, "targets") != nullptr;
-            mesh.primitives.push_back(primitive);
+            if (const Json* draco = extension(part, "KHR_draco_mesh_compression")) read_draco(*draco, primitive, where);
+            each_member(part, "targets", where, [&](const Json& target) {
+                primitive.target_positions.push_back(index(target, "POSITION", "accessors", where));
+            });
+            mesh.primitives.push_back(std::move(primitive));
         });
+        mesh.weights = number_list(json, "weights", where);
         document_.meshes.push_back(std::move(mesh));
+    });
+}
+
+void DocumentReader::read_skins() {
+    each("skins", [&](const Json& json, const Where& where) {
+        Skin skin;
+        skin.inverse_bind = index(json, "inverseBindMatrices", "accessors", where);
+        each_member(json, "joints", where,
+                    [&](const Json& joint) { skin.joints.push_back(index(joint, count("nodes"), where, "joints")); });
+        document_.skins.push_back(std::move(skin));
     });
 }
 
@@ -270,9 +175,8 @@ void DocumentReader::read_nodes() {
         Node node;
         node.name = name_in(json);
         node.mesh = index(json, "mesh", "meshes", where);
-        node.skinned = index(json, "skin", "skins", where) != no_index;
-        const Json* extensions = member(json, "extensions");
-        node.instanced = extensions != nullptr && member(*extensions, "EXT_mesh_gpu_instancing") != nullptr;
+        node.skin = index(json, "skin", "skins", where);
+        node.weights = number_list(json, "weights", where);
         each_member(json, "children", where, [&](const Json& child) {
             node.children.push_back(index(child, count("nodes"), where, "children"));
         });
@@ -423,8 +327,10 @@ Result<Document> DocumentReader::read(std::span<const std::byte> binary) {
         read_buffers();
         read_accessors();
         read_meshes();
+        read_skins();
         read_nodes();
         read_animations();
+        if (!problem_) problem_ = read_extensions(root_, document_);
         if (!problem_) check_tree();
         if (!problem_) read_roots();
     }

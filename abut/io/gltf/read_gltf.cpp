@@ -1,4 +1,4 @@
-#include <abut/io/gltf/accessors.hpp>
+#include <abut/io/gltf/geometry_reader.hpp>
 #include <abut/io/gltf/read_gltf.hpp>
 
 #include <algorithm>
@@ -17,59 +17,39 @@ namespace abut::gltf {
 namespace {
 
 using detail::no_index;
+using detail::ReadScene;
 
-enum Mode : std::uint32_t { triangle_list = 4, triangle_strip = 5, triangle_fan = 6 };
-
-// Assembles triangles from vertex indices. Degenerate triangles that join parts of a strip are left out, and so are
-// trailing indices that don't complete a triangle, as the specification demands.
-std::vector<glm::uvec3> assemble(const std::vector<std::uint32_t>& indices, std::uint32_t mode) {
-    std::vector<glm::uvec3> triangles;
-    if (mode == triangle_list) {
-        for (std::size_t i = 0; i + 2 < indices.size(); i += 3)
-            triangles.emplace_back(indices[i], indices[i + 1], indices[i + 2]);
-        return triangles;
-    }
-    for (std::size_t i = 0; i + 2 < indices.size(); ++i) {
-        const glm::uvec3 t = mode == triangle_fan ? glm::uvec3(indices[i + 1], indices[i + 2], indices[0])
-                             : i % 2 == 0         ? glm::uvec3(indices[i], indices[i + 1], indices[i + 2])
-                                                  : glm::uvec3(indices[i], indices[i + 2], indices[i + 1]);
-        const bool seam = t.x == t.y || t.y == t.z || t.z == t.x;
-        if (mode == triangle_fan || !seam) triangles.push_back(t);
-    }
-    return triangles;
-}
+constexpr std::size_t max_instances = std::size_t{1} << 20;
 
 class SceneReader {
 public:
     SceneReader(const Document& document, const std::filesystem::path& folder, const ReadOptions& options)
         : document_(document),
-          data_(document, detail::ReferencedFiles(folder, options.allow_outside)),
-          with_normals_(options.normals),
+          geometries_(document, detail::ReferencedFiles(folder, options.allow_outside), options.normals, read_.scene),
+          ignores_colliders_(options.ignore_colliders),
+          uses_colliders_(!options.ignore_colliders && !document.colliders.empty()),
           scene_node_(document.nodes.size(), no_index) {}
 
-    Result<Scene> read();
+    Result<ReadScene> read();
 
 private:
-    void warn_once(const std::string& warning) {
-        if (std::find(scene_.warnings.begin(), scene_.warnings.end(), warning) == scene_.warnings.end())
-            scene_.warnings.push_back(warning);
-    }
     std::string title(const Animation& animation) const;
 
-    Result<std::vector<Vec3>> read_vectors(std::uint32_t accessor);
-    Result<Geometry> read_primitive(const Primitive& primitive, std::string name);
-    Result<std::vector<std::uint32_t>> read_mesh(std::uint32_t mesh);
     std::optional<Problem> read_nodes();
+    std::optional<Problem> read_geometry(const Node& from, std::uint32_t index, SceneNode& node);
+    std::optional<Problem> read_instances(const Node& from, std::uint32_t scene_node);
+    std::optional<Problem> read_skins();
+    Result<std::vector<double>> first_weights(const Node& node, std::uint32_t index);
     template <class Value, int N>
     Result<KeyTrack<Value>> read_track(const Sampler& sampler, const std::string& where);
     std::optional<Problem> read_animation(const Animation& animation);
 
     const Document& document_;
-    AccessorReader data_;
-    bool with_normals_;
-    Scene scene_;
+    ReadScene read_;
+    GeometryReader geometries_;
+    bool ignores_colliders_, uses_colliders_;
     std::vector<std::uint32_t> scene_node_;  // scene node of each document node
-    std::map<std::uint32_t, std::vector<std::uint32_t>> geometries_of_mesh_;
+    std::size_t instances_ = 0;              // of all nodes so far
 };
 
 std::string SceneReader::title(const Animation& animation) const {
@@ -77,67 +57,141 @@ std::string SceneReader::title(const Animation& animation) const {
     return animation.name.empty() ? "animation " + std::to_string(place) : "animation '" + animation.name + "'";
 }
 
-Result<std::vector<Vec3>> SceneReader::read_vectors(std::uint32_t accessor) {
-    const Result<std::vector<double>> numbers = data_.numbers(accessor, 3);
-    if (!numbers) return numbers.problem();
-    std::vector<Vec3> result(numbers->size() / 3);
-    for (std::size_t i = 0; i < result.size(); ++i)
-        for (std::size_t k = 0; k < 3; ++k) result[i][static_cast<int>(k)] = static_cast<float>((*numbers)[3 * i + k]);
-    return result;
-}
-
-Result<Geometry> SceneReader::read_primitive(const Primitive& primitive, std::string name) {
-    Geometry geometry{std::move(name), {}, {}};
-    const auto problem = [&](const Problem& from) {
-        return Problem{from.code, "mesh '" + geometry.name + "': " + from.message};
-    };
-    Result<std::vector<Vec3>> points = read_vectors(primitive.positions);
-    if (!points) return problem(points.problem());
-    geometry.points = *std::move(points);
-    if (with_normals_ && primitive.normals != no_index) {
-        Result<std::vector<Vec3>> normals = read_vectors(primitive.normals);
-        if (!normals) return problem(normals.problem());
-        geometry.normals = *std::move(normals);
-    }
-
-    std::vector<std::uint32_t> indices(geometry.points.size());
-    for (std::uint32_t i = 0; i < indices.size(); ++i) indices[i] = i;
-    if (primitive.indices != no_index) {
-        Result<std::vector<std::uint32_t>> from_file = data_.indices(primitive.indices);
-        if (!from_file) return problem(from_file.problem());
-        indices = *std::move(from_file);
-    }
-    geometry.triangles = assemble(indices, primitive.mode);
-    return geometry;
-}
-
-// Returns the geometries of a mesh, one per triangle primitive.
-Result<std::vector<std::uint32_t>> SceneReader::read_mesh(std::uint32_t index) {
-    const auto known = geometries_of_mesh_.find(index);
-    if (known != geometries_of_mesh_.end()) return known->second;
-    const Mesh& mesh = document_.meshes[index];
-    const std::string name = mesh.name.empty() ? "meshes[" + std::to_string(index) + "]" : mesh.name;
-    if (mesh.morphs) warn_once("morph targets are left out: such meshes are taken in their base shape");
-
-    std::vector<std::uint32_t> geometries;
-    for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
-        const Primitive& primitive = mesh.primitives[i];
-        if (primitive.positions == no_index) continue;
-        if (primitive.mode > triangle_fan)
-            return Problem{ProblemCode::bad_format,
-                           "mesh '" + name + "': unknown primitive mode " + std::to_string(primitive.mode)};
-        if (primitive.mode < triangle_list) {
-            warn_once("points and lines are left out: only triangles collide");
-            continue;
+// The weights of the morph targets when the animation begins.
+Result<std::vector<double>> SceneReader::first_weights(const Node& node, std::uint32_t index) {
+    for (const Animation& animation : document_.animations)
+        for (const Channel& channel : animation.channels) {
+            if (channel.target != Target::weights || channel.node != index) continue;
+            const Sampler& sampler = animation.samplers[channel.sampler];
+            if (sampler.output == no_index || sampler.input == no_index) continue;
+            Result<std::vector<double>> values = geometries_.data().numbers(sampler.output, 1);
+            if (!values) return Problem{values.problem().code, title(animation) + ": " + values.problem().message};
+            const std::uint64_t keys = document_.accessors[sampler.input].count;
+            const std::size_t per_key = keys == 0 ? 0 : values->size() / keys;
+            // A cubic key has a tangent before and after its value.
+            const std::size_t targets = sampler.curve == Curve::cubic ? per_key / 3 : per_key;
+            const std::size_t begin = sampler.curve == Curve::cubic ? targets : 0;
+            if (targets == 0) continue;
+            const auto first = values->begin() + static_cast<std::ptrdiff_t>(begin);
+            return std::vector<double>(first, first + static_cast<std::ptrdiff_t>(targets));
         }
-        const std::string part = mesh.primitives.size() == 1 ? "" : ", primitive " + std::to_string(i);
-        Result<Geometry> geometry = read_primitive(primitive, name + part);
-        if (!geometry) return geometry.problem();
-        geometries.push_back(static_cast<std::uint32_t>(scene_.geometries.size()));
-        scene_.geometries.push_back(*std::move(geometry));
+    return node.weights.empty() ? document_.meshes[node.mesh].weights : node.weights;
+}
+
+// Adds what collides of a node: its collider if the file has any, else its mesh.
+std::optional<Problem> SceneReader::read_geometry(const Node& from, std::uint32_t index, SceneNode& node) {
+    if (uses_colliders_) {
+        if (from.collider == no_index) return std::nullopt;
+        Result<std::vector<std::uint32_t>> geometries = geometries_.collider(from.collider, index);
+        if (!geometries) return geometries.problem();
+        node.geometries = *std::move(geometries);
+        return std::nullopt;
     }
-    geometries_of_mesh_.emplace(index, geometries);
-    return geometries;
+    if (from.mesh == no_index || (from.no_collision && !ignores_colliders_)) return std::nullopt;
+    if (from.skin != no_index) return std::nullopt;
+    Result<std::vector<double>> weights = first_weights(from, index);
+    if (!weights) return weights.problem();
+    Result<std::vector<std::uint32_t>> geometries = geometries_.mesh(from.mesh, *weights);
+    if (!geometries) return geometries.problem();
+    node.geometries = *std::move(geometries);
+    return std::nullopt;
+}
+
+// Gives each instance a node of its own below the node, which keeps none of its geometry.
+std::optional<Problem> SceneReader::read_instances(const Node& from, std::uint32_t scene_node) {
+    struct Attribute {
+        std::uint32_t accessor, components;
+        std::vector<double> values;
+    };
+    Attribute translations{from.instance_translations, 3, {}}, rotations{from.instance_rotations, 4, {}},
+        scales{from.instance_scales, 3, {}};
+    std::optional<std::size_t> count;
+    for (Attribute* attribute : {&translations, &rotations, &scales}) {
+        if (attribute->accessor == no_index) continue;
+        Result<std::vector<double>> values = geometries_.data().numbers(attribute->accessor, attribute->components);
+        if (!values) return values.problem();
+        attribute->values = *std::move(values);
+        const std::size_t own = attribute->values.size() / attribute->components;
+        if (count && *count != own)
+            return Problem{ProblemCode::bad_format,
+                           "instances: " + std::to_string(*count) + " and " + std::to_string(own) + " of them"};
+        count = own;
+    }
+    instances_ += count.value_or(0);
+    if (instances_ > max_instances)
+        return Problem{ProblemCode::too_large,
+                       std::to_string(instances_) + " instances; the limit is " + std::to_string(max_instances)};
+    const std::vector<std::uint32_t> geometries = std::exchange(read_.scene.nodes[scene_node].geometries, {});
+    for (std::size_t i = 0; i < count.value_or(0); ++i) {
+        glm::dmat4 local(1.0);
+        if (const double* t = translations.values.empty() ? nullptr : &translations.values[3 * i])
+            local = glm::translate(local, glm::dvec3(t[0], t[1], t[2]));
+        if (const double* q = rotations.values.empty() ? nullptr : &rotations.values[4 * i])
+            local *= glm::mat4_cast(glm::normalize(glm::dquat(q[3], q[0], q[1], q[2])));
+        if (const double* s = scales.values.empty() ? nullptr : &scales.values[3 * i])
+            local = glm::scale(local, glm::dvec3(s[0], s[1], s[2]));
+        SceneNode node;
+        node.name = "instance " + std::to_string(i);
+        node.parent = scene_node;
+        node.local = local;
+        node.geometries = geometries;
+        read_.scene.nodes.push_back(std::move(node));
+    }
+    return std::nullopt;
+}
+
+// Reads the geometry of skinned nodes, which `finish_scene` poses.
+std::optional<Problem> SceneReader::read_skins() {
+    if (uses_colliders_) return std::nullopt;
+    for (std::uint32_t index = 0; index < document_.nodes.size(); ++index) {
+        const Node& from = document_.nodes[index];
+        const std::uint32_t node = scene_node_[index];
+        if (from.skin == no_index || from.mesh == no_index || node == no_index ||
+            (from.no_collision && !ignores_colliders_))
+            continue;
+        const std::string where = name_of(document_, index) + ": skin: ";
+        detail::Skin skin;
+        skin.node = node;
+        for (const std::uint32_t joint : document_.skins[from.skin].joints) {
+            skin.joints.push_back(scene_node_[joint]);
+            if (skin.joints.back() == no_index)
+                return Problem{ProblemCode::bad_format, where + name_of(document_, joint) + " is not in the scene"};
+        }
+        skin.inverse_binds.assign(skin.joints.size(), glm::dmat4(1.0));
+        if (document_.skins[from.skin].inverse_bind != no_index) {
+            const Result<std::vector<double>> numbers =
+                geometries_.data().numbers(document_.skins[from.skin].inverse_bind, 16);
+            if (!numbers) return Problem{numbers.problem().code, where + numbers.problem().message};
+            if (numbers->size() < 16 * skin.joints.size())
+                return Problem{ProblemCode::bad_format, where + "fewer matrices than joints"};
+            for (std::size_t i = 0; i < 16 * skin.joints.size(); ++i)
+                skin.inverse_binds[i / 16][static_cast<int>(i / 4 % 4)][static_cast<int>(i % 4)] = (*numbers)[i];
+        }
+        const Result<std::vector<double>> weights = first_weights(from, index);
+        if (!weights) return weights.problem();
+        Result<std::vector<std::pair<std::uint32_t, PointJoints>>> parts =
+            geometries_.skinned_mesh(from.mesh, *weights);
+        if (!parts) return parts.problem();
+        for (const auto& [geometry, points] : *parts) {
+            read_.scene.nodes[node].geometries.push_back(geometry);
+            if (skin.joints.empty() || points.joints.empty()) continue;
+            const std::size_t count = 4 * read_.scene.geometries[geometry].points.size();
+            if (points.joints.size() != count || points.weights.size() != count)
+                return Problem{ProblemCode::bad_format, where + "not one set of joints and weights per point"};
+            skin.geometry = geometry;
+            skin.influences.clear();
+            for (std::size_t i = 0; i < points.joints.size(); ++i) {
+                if (!(points.weights[i] > 0)) continue;
+                if (points.joints[i] >= skin.joints.size())
+                    return Problem{ProblemCode::index_out_of_range,
+                                   where + "joint " + std::to_string(points.joints[i]) + " is out of range"};
+                skin.influences.push_back({static_cast<std::uint32_t>(i / 4), points.joints[i], points.weights[i]});
+            }
+            read_.skins.push_back(skin);
+        }
+        geometries_.warn_once("skinned meshes are posed as at the first time, and move with the root of their joints");
+    }
+    return std::nullopt;
 }
 
 std::optional<Problem> SceneReader::read_nodes() {
@@ -155,22 +209,17 @@ std::optional<Problem> SceneReader::read_nodes() {
         SceneNode node;
         node.name = from.name.empty() ? "nodes[" + std::to_string(index) + "]" : from.name;
         node.parent = parent;
-        node.local = from.has_matrix ? from.matrix
-                                     : glm::scale(glm::translate(glm::dmat4(1.0), from.translation) *
-                                                      glm::mat4_cast(glm::normalize(from.rotation)),
-                                                  from.scale);
-        if (from.mesh != no_index) {
-            Result<std::vector<std::uint32_t>> geometries = read_mesh(from.mesh);
-            if (!geometries) return geometries.problem();
-            node.geometries = *std::move(geometries);
-            if (from.instanced)
-                warn_once("instances made by EXT_mesh_gpu_instancing are left out, except the node itself");
-            if (from.skinned) warn_once("skinned meshes are taken in their bind pose");
-        }
-        scene_node_[index] = static_cast<std::uint32_t>(scene_.nodes.size());
+        node.local = local_matrix(from);
+        const std::uint32_t own = static_cast<std::uint32_t>(read_.scene.nodes.size());
+        node.is_body = from.is_body;
+        if (std::optional<Problem> problem = read_geometry(from, index, node)) return problem;
+        scene_node_[index] = own;
         for (auto child = from.children.rbegin(); child != from.children.rend(); ++child)
-            stack.push_back({*child, scene_node_[index]});
-        scene_.nodes.push_back(std::move(node));
+            stack.push_back({*child, own});
+        read_.scene.nodes.push_back(std::move(node));
+        if (!from.instanced) continue;
+        if (std::optional<Problem> problem = read_instances(from, own))
+            return Problem{problem->code, name_of(document_, index) + ": " + problem->message};
     }
     return std::nullopt;
 }
@@ -194,9 +243,9 @@ Result<KeyTrack<Value>> SceneReader::read_track(const Sampler& sampler, const st
     const auto problem = [&](const Problem& from) { return Problem{from.code, where + ": " + from.message}; };
     if (sampler.input == no_index || sampler.output == no_index)
         return Problem{ProblemCode::bad_format, where + ": times or values are missing"};
-    Result<std::vector<double>> times = data_.numbers(sampler.input, 1);
+    Result<std::vector<double>> times = geometries_.data().numbers(sampler.input, 1);
     if (!times) return problem(times.problem());
-    const Result<std::vector<double>> numbers = data_.numbers(sampler.output, N);
+    const Result<std::vector<double>> numbers = geometries_.data().numbers(sampler.output, N);
     if (!numbers) return problem(numbers.problem());
 
     KeyTrack<Value> track;
@@ -226,7 +275,7 @@ std::optional<Problem> SceneReader::read_animation(const Animation& from) {
     std::map<std::uint32_t, std::size_t> motion_of_node;
     for (const Channel& channel : from.channels) {
         if (channel.target == Target::weights)
-            warn_once("morph targets are left out: such meshes are taken in their base shape");
+            geometries_.warn_once("morphed meshes keep the shape that they have at the first time");
         if (channel.target == Target::weights || channel.node == no_index || scene_node_[channel.node] == no_index)
             continue;
         const std::uint32_t node = scene_node_[channel.node];
@@ -250,34 +299,23 @@ std::optional<Problem> SceneReader::read_animation(const Animation& from) {
             problem = set_track(read_track<glm::dvec3, 3>(sampler, where), motion.scale);
         if (problem) return problem;
     }
-    if (!animation.motions.empty()) scene_.animations.push_back(std::move(animation));
+    if (!animation.motions.empty()) read_.scene.animations.push_back(std::move(animation));
     return std::nullopt;
 }
 
-Result<Scene> SceneReader::read() {
-    for (const std::string& extension : document_.required_extensions) {
-        if (extension.find("meshopt_compression") != std::string::npos)
-            return Problem{ProblemCode::bad_format, "needs the extension " + extension + ", which can't be read"};
-        if (extension == "EXT_mesh_gpu_instancing") warn_once("instances made by EXT_mesh_gpu_instancing are left out");
-    }
+Result<ReadScene> SceneReader::read() {
     std::optional<Problem> problem = read_nodes();
+    if (!problem) problem = read_skins();
     for (const Animation& animation : document_.animations)
         if (!problem) problem = read_animation(animation);
     if (problem) return *std::move(problem);
-    return std::move(scene_);
+    read_.has_colliders = uses_colliders_;
+    return std::move(read_);
 }
 
 }  // namespace
 
-bool is_supported(const Document& document) {
-    if (document.version != 2) return false;
-    for (const Mesh& mesh : document.meshes)
-        for (const Primitive& primitive : mesh.primitives)
-            if (primitive.draco) return false;
-    return true;
-}
-
-Result<Scene> read_gltf(const Document& document, const std::filesystem::path& folder, const ReadOptions& options) {
+Result<ReadScene> read_gltf(const Document& document, const std::filesystem::path& folder, const ReadOptions& options) {
     return SceneReader(document, folder, options).read();
 }
 

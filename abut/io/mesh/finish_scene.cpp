@@ -1,3 +1,4 @@
+#include <abut/io/mesh/collider_names.hpp>
 #include <abut/io/mesh/finish_scene.hpp>
 #include <abut/math/dvec.hpp>
 
@@ -199,15 +200,26 @@ void normalize_rotations(Scene& scene) {
 
 }  // namespace
 
-Result<Scene> finish_scene(Scene scene, const ReadOptions& options) {
+Result<Scene> finish_scene(ReadScene read, const ReadOptions& options) {
+    Scene& scene = read.scene;
     std::optional<Problem> problem = check_nodes(scene);
     for (Geometry& geometry : scene.geometries) {
         if (!problem) problem = check_points(scene, geometry);
-        if (!problem && !options.keep_degenerate) problem = check_areas(scene, geometry, options.strict);
         if (!problem) check_normals(scene, geometry);
     }
     if (!problem) problem = check_animations(scene);
     if (problem) return *std::move(problem);
+
+    normalize_rotations(scene);
+    schedule(scene);
+    pose_skins(scene, read.skins);
+    if (!read.skins.empty()) problem = check_nodes(scene);
+    for (Geometry& geometry : scene.geometries) {
+        if (!problem && !read.skins.empty()) problem = check_points(scene, geometry);
+        if (!problem && !options.keep_degenerate) problem = check_areas(scene, geometry, options.strict);
+    }
+    if (problem) return *std::move(problem);
+    if (!options.ignore_colliders && !read.has_colliders) select_colliders(scene);
 
     remove_empty_geometry(scene);
     const bool has_objects = std::any_of(scene.nodes.begin(), scene.nodes.end(),
@@ -218,9 +230,10 @@ Result<Scene> finish_scene(Scene scene, const ReadOptions& options) {
                                                      : "all triangles in it have zero area: 0 objects"};
     make_paths_unique(scene);
     warn_of_left_out(scene);
-    normalize_rotations(scene);
-    schedule(scene);
-    return scene;
+    if (read.has_colliders)
+        scene.warnings.push_back(
+            "the file has colliders of its own: these are read, and not the meshes that are drawn");
+    return std::move(scene);
 }
 
 }  // namespace abut::detail

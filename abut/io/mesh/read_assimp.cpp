@@ -237,8 +237,8 @@ Scene Reader::read() {
 
 // `import` passes the file or the bytes to Assimp. Without a file, Assimp opens none.
 template <class ReadFile>
-Result<Scene> read_with(const std::filesystem::path& file, const std::string& extension, const std::string& stem,
-                        const ReadOptions& options, ReadFile import) {
+Result<ReadScene> read_with(const std::filesystem::path& file, const std::string& extension, const std::string& stem,
+                            const ReadOptions& options, ReadFile import) {
     auto* const files = new AssimpFiles(file, options.allow_outside);
     Assimp::Importer importer;
     importer.SetIOHandler(files);  // takes ownership
@@ -252,7 +252,7 @@ Result<Scene> read_with(const std::filesystem::path& file, const std::string& ex
     if (std::optional<Problem> problem = reader.check_faces()) return *std::move(problem);
     if (scene->mNumMeshes > 0 && importer.ApplyPostProcessing(aiProcess_Triangulate) == nullptr)
         return importer_problem(importer);
-    return reader.read();
+    return ReadScene{reader.read(), {}};
 }
 
 }  // namespace
@@ -261,12 +261,13 @@ bool assimp_knows(const std::string& extension) {
     return Assimp::Importer().IsExtensionSupported(extension);
 }
 
-Result<Scene> read_assimp(const std::filesystem::path& file, const ReadOptions& options) {
+Result<ReadScene> read_assimp(const std::filesystem::path& file, const ReadOptions& options) {
     return read_with(file, file.extension().string(), file.stem().string(), options,
                      [&](Assimp::Importer& importer) { return importer.ReadFile(file.string(), 0); });
 }
 
-Result<Scene> read_assimp(std::span<const std::byte> bytes, const std::string& extension, const ReadOptions& options) {
+Result<ReadScene> read_assimp(std::span<const std::byte> bytes, const std::string& extension,
+                              const ReadOptions& options) {
     return read_with({}, extension, "scene", options, [&](Assimp::Importer& importer) {
         return importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, extension.c_str());
     });

@@ -19,9 +19,10 @@ bool assimp_knows(const std::string& extension);
 /// Reads a scene with polygons triangulated. Values are not validated: `finish_scene` does that. Only triangles and
 /// polygons without area are checked here, before polygons are triangulated. Assimp has been seen to crash on damaged
 /// files: read untrusted ones in a separate process.
-Result<Scene> read_assimp(const std::filesystem::path& file, const ReadOptions& options);
+Result<ReadScene> read_assimp(const std::filesystem::path& file, const ReadOptions& options);
 
 /// Reads a scene from memory. `extension` names the format. Files that the scene refers to are not read.
-Result<Scene> read_assimp(std::span<const std::byte> bytes, const std::string& extension, const ReadOptions& options);
+Result<ReadScene> read_assimp(std::span<const std::byte> bytes, const std::string& extension,
+                              const ReadOptions& options);
 
 }  // namespace abut::detail
