@@ -26,7 +26,9 @@ constexpr const char* files =
     "3D: glTF 2.0, or any format that Assimp reads; 2D: a Tiled map (.tmx, .tmj) or a drawing (.svg)";
 
 // Options of reading files. Verbs that repair meshes have no --strict.
-void add_options(CLI::App& verb, bool& allow_outside, bool* be_strict) {
+void add_options(CLI::App& verb, bool& allow_outside, bool& all_meshes, bool* be_strict) {
+    verb.add_flag("--all-meshes", all_meshes,
+                  "Take the meshes that are drawn even where the file has colliders, by name or by an extension");
     verb.add_flag("--allow-outside", allow_outside,
                   "Allow references to files outside of the file's own folder, such as ../shared/a.bin");
     if (be_strict == nullptr) return;
@@ -40,20 +42,22 @@ void add_options(CLI::App& verb, bool& allow_outside, bool* be_strict) {
 }
 
 void add_options(CLI::App& verb, FileOptions& options, bool can_be_strict) {
-    add_options(verb, options.allow_outside, can_be_strict ? &options.strict : nullptr);
+    add_options(verb, options.allow_outside, options.all_meshes, can_be_strict ? &options.strict : nullptr);
+    verb.add_option("--scale", options.scale, "Multiply all lengths of a 3D scene by F, such as 0.01")->type_name("F");
 }
 
 // Options that `abut.toml` may have too, as text; also those of `abut init`.
 struct SettingArguments {
     std::map<std::string, std::vector<std::string>> texts;
-    bool strict = false, allow_outside = false, warnings_as_errors = false;
+    bool strict = false, allow_outside = false, all_meshes = false, warnings_as_errors = false;
 
     Settings all() const {
         Settings settings;
         for (const auto& [name, values] : texts)
             for (const std::string& text : values) settings[name].push_back({text, "--" + name});
-        for (const auto& [name, is_given] : {std::pair("strict", strict), std::pair("allow-outside", allow_outside),
-                                             std::pair("warnings-as-errors", warnings_as_errors)})
+        for (const auto& [name, is_given] :
+             {std::pair("strict", strict), std::pair("allow-outside", allow_outside),
+              std::pair("all-meshes", all_meshes), std::pair("warnings-as-errors", warnings_as_errors)})
             if (is_given) settings[name] = {{"true", std::string("--") + name}};
         return settings;
     }
@@ -100,7 +104,8 @@ void add_options(CLI::App& verb, SettingArguments& arguments) {
     many("closed", "PATTERN",
          "3D: objects whose meshes must be watertight; by default small holes of all meshes are warnings");
     verb.add_flag("--warnings-as-errors", arguments.warnings_as_errors, "Exit with 1 for warnings too");
-    add_options(verb, arguments.allow_outside, &arguments.strict);
+    one("scale", "F", "Multiply all lengths of a 3D scene by F, such as 0.01");
+    add_options(verb, arguments.allow_outside, arguments.all_meshes, &arguments.strict);
 }
 
 // Arguments of `abut check`.
@@ -197,6 +202,26 @@ void add_options(CLI::App& verb, HullArguments& arguments) {
     verb.add_flag("--json", arguments.request.json, "Print one JSON object instead of text");
     add_options(verb, arguments.request.files, false);
     verb.footer("Objects are placed as at the first moment of the animation.");
+}
+
+void add_options(CLI::App& verb, FixRequest& request) {
+    verb.add_option("MESH", request.mesh, mesh_files)->required();
+    verb.add_option("-o,--output", request.output, mesh_output)->type_name("OUT")->required();
+    verb.add_flag("--json", request.json, "Print one JSON object instead of text");
+    add_options(verb, request.files, false);
+    verb.footer(
+        "Coincident corners are welded, duplicate triangles and those of zero area removed, and closed surfaces "
+        "oriented outwards. Holes stay. Objects are placed as at the first moment of the animation.");
+}
+
+void add_options(CLI::App& verb, FixRequest& request) {
+    verb.add_option("MESH", request.mesh, mesh_files)->required();
+    verb.add_option("-o,--output", request.output, mesh_output)->type_name("OUT")->required();
+    verb.add_flag("--json", request.json, "Print one JSON object instead of text");
+    add_options(verb, request.files, false);
+    verb.footer(
+        "Coincident corners are welded, duplicate triangles and those of zero area removed, and closed surfaces "
+        "oriented outwards. Holes stay. Objects are placed as at the first moment of the animation.");
 }
 
 // Arguments of `abut decompose`; numbers are still text.
@@ -419,6 +444,10 @@ int run(int count, char** arguments) {
     HullArguments hull;
     CLI::App& hull_verb = *app.add_subcommand("hull", "Writes the convex hull of a mesh");
     add_options(hull_verb, hull);
+    FixRequest fix;
+    CLI::App& fix_verb =
+        *app.add_subcommand("fix", "Writes the meshes of a scene without the faults that have one right answer");
+    add_options(fix_verb, fix);
     DecomposeArguments decompose;
     CLI::App& decompose_verb = *app.add_subcommand("decompose", "Writes an approximate convex decomposition of a mesh");
     add_options(decompose_verb, decompose);
@@ -451,6 +480,7 @@ int run(int count, char** arguments) {
                               : init_verb.parsed()      ? init.request.scene
                               : cast_verb.parsed()      ? cast.request.scene
                               : hull_verb.parsed()      ? hull.request.mesh
+                              : fix_verb.parsed()       ? fix.mesh
                               : decompose_verb.parsed() ? decompose.request.mesh
                               : bakes                   ? field.request.mesh
                               : walk_verb.parsed()      ? walk.request.mesh
@@ -466,6 +496,7 @@ int run(int count, char** arguments) {
                                       : init_verb.parsed()      ? run_init(init)
                                       : cast_verb.parsed()      ? run_cast(cast)
                                       : hull_verb.parsed()      ? run_hull(hull)
+                                      : fix_verb.parsed()       ? run_fix(fix)
                                       : decompose_verb.parsed() ? run_decompose(decompose)
                                       : bakes                   ? run_field(field)
                                       : walk_verb.parsed()      ? run_walk(walk)

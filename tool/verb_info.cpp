@@ -1,5 +1,6 @@
 #include "tool/shared/format.hpp"
 #include "tool/shared/left_out.hpp"
+#include "tool/shared/printable.hpp"
 #include "tool/verbs.hpp"
 
 #include <cmath>
@@ -140,8 +141,9 @@ Result<ExitCode> run(const InfoRequest& request) {
     ObjectsOf<D> objects(*file);
     if (const std::optional<Problem> problem = build<D>(objects, times.front()))
         return Problem{problem->code, request.scene + ": " + problem->message};
-    return print(
-        request.json ? json_info<D>(*file, objects, times) : text_info<D>(request.scene, *file, objects, times), fine);
+    return print(request.json ? json_info<D>(*file, objects, times)
+                              : text_info<D>(printable(request.scene), *file, objects, times),
+                 fine);
 }
 
 }  // namespace

@@ -1,16 +1,14 @@
 #include "tool/verbs.hpp"
 
+#include "tool/shared/printable.hpp"
 #include <abut/io/write_file.hpp>
 
-#include <algorithm>
 #include <cstdio>
 
 namespace abut::tool {
 
-std::string one_line(std::string message) {
-    std::replace_if(
-        message.begin(), message.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
-    return "abut: " + message + "\n";
+std::string one_line(const std::string& message) {
+    return "abut: " + printable(message) + "\n";
 }
 
 std::optional<Problem> write_picture(const std::string& file, const std::string& document) {

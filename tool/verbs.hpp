@@ -82,6 +82,15 @@ struct DecomposeRequest {
 
 Result<ExitCode> run_decompose(const DecomposeRequest& request);
 
+struct FixRequest {
+    std::string mesh, output;
+    bool json = false;
+    FileOptions files;
+};
+
+/// Welds corners, removes duplicate triangles and those of zero area, and orients closed surfaces outwards.
+Result<ExitCode> run_fix(const FixRequest& request);
+
 /// A slice perpendicular to an axis (0 to 2) at a coordinate.
 struct FieldSlice {
     int axis = 0;
@@ -130,8 +139,8 @@ struct ReplayRequest {
 
 Result<ExitCode> run_replay(const ReplayRequest& request);
 
-/// Formats a line for stderr: "abut: ", the message with control characters replaced by blanks, and a newline.
-std::string one_line(std::string message);
+/// Formats a line for stderr: "abut: ", the message made printable, and a newline.
+std::string one_line(const std::string& message);
 
 /// Writes a file. The message of a Problem begins with the file.
 std::optional<Problem> write_picture(const std::string& file, const std::string& document);

@@ -88,7 +88,7 @@ TEST_F(Outside, OtherBadNamesAreNamed) {
         const std::string line = refusal({"info", scene(uri)});
         return line.substr(line.find("buffers[0]: ") + 12);
     };
-    EXPECT_EQ(complaint("own.bin%00.png"), "'own.bin .png': isn't the name of a file");
+    EXPECT_EQ(complaint("own.bin%00.png"), "'own.bin\\x00.png': isn't the name of a file");
     EXPECT_EQ(complaint("http://example.org/own.bin"), "'http://example.org/own.bin': isn't a file beside this one");
     EXPECT_EQ(complaint("%252e%252e/secret.bin"), "'%2e%2e/secret.bin': no such file") << "decoded once";
     const std::string shown = complaint(std::string(100'000, 'x'));

@@ -1,6 +1,7 @@
 #include "tool/arguments.hpp"
 #include "tool/cast/cast_report.hpp"
 #include "tool/shared/format.hpp"
+#include "tool/shared/printable.hpp"
 #include "tool/shared/stopwatch.hpp"
 #include "tool/verbs.hpp"
 
@@ -71,7 +72,7 @@ Result<ExitCode> run(const CastRequest& request) {
     report.cast_seconds = watch.lap();
     if (request.picture)
         if (const std::optional<Problem> problem = write_picture(*request.picture, picture(report))) return *problem;
-    return print(request.json ? json_report(report) : text_report(report, request.scene),
+    return print(request.json ? json_report(report) : text_report(report, printable(request.scene)),
                  report.result.hits.empty() ? fine : found);
 }
 

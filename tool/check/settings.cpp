@@ -106,25 +106,13 @@ void read_severities(Reader& reader, Severities& severities) {
 const std::vector<SettingInfo>& all_settings() {
     using enum SettingForm;
     static const std::vector<SettingInfo> all{
-        {"allow", value},
-        {"clearance", value},
-        {"frames", value},
-        {"character", value},
-        {"up", value},
-        {"gap", value},
-        {"baseline", value},
-        {"pairs", list},
-        {"spawn", list},
-        {"closed", list},
-        {"solid", list},
-        {"body", list},
-        {"only", list},
-        {"no", list},
-        {"severity", list},
-        {"ignore", list},
-        {"strict", flag},
-        {"allow-outside", flag},
-        {"warnings-as-errors", flag},
+        {"allow", value},     {"clearance", value}, {"frames", value},
+        {"character", value}, {"up", value},        {"gap", value},
+        {"baseline", value},  {"pairs", list},      {"spawn", list},
+        {"closed", list},     {"solid", list},      {"body", list},
+        {"only", list},       {"no", list},         {"severity", list},
+        {"ignore", list},     {"strict", flag},     {"allow-outside", flag},
+        {"all-meshes", flag}, {"scale", value},     {"warnings-as-errors", flag},
     };
     return all;
 }
@@ -148,6 +136,8 @@ Result<CheckPlan> plan_of(const Settings& settings) {
     for (std::size_t i = 0; i < plan.ignored.size(); ++i) plan.ignored[i].where = reader.of("ignore")[i].where;
     reader.read("strict", plan.files.strict);
     reader.read("allow-outside", plan.files.allow_outside);
+    reader.read("all-meshes", plan.files.all_meshes);
+    reader.read("scale", parse_length, plan.files.scale);
     reader.read("warnings-as-errors", plan.warnings_as_errors);
     read_severities(reader, plan.severities);
     if (reader.problem()) return *reader.problem();

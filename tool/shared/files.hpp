@@ -23,6 +23,8 @@ using ObjectsOf = std::conditional_t<D == 2, LevelObjects, SceneObjects>;
 struct FileOptions {
     bool strict = false;         ///< reject a file with a triangle of zero area
     bool allow_outside = false;  ///< allow references to files outside of its folder
+    bool all_meshes = false;     ///< take the meshes that are drawn even where a file has colliders
+    float scale = 1;             ///< of all lengths of a 3D scene
 };
 
 /// The dimension, 2 or 3, by the file's extension.
