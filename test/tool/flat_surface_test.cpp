@@ -42,7 +42,7 @@ void expect_fronts_are_free(const S& shape, const Surface<2>& surface, float awa
 
 TEST(FlatSurface, ConvexShapesByTheirCorners) {
     const Box2 box{{3, 4}, {2, 1}, Turn()};
-    const Surface<2> surface = surface_of(view(box), true);
+    const Surface<2> surface = *surface_of(view(box), true);
     EXPECT_EQ(surface.points.size(), 4u);
     ASSERT_EQ(surface.facets.size(), 4u);
     EXPECT_FLOAT_EQ(length_of(surface), 12);
@@ -52,7 +52,7 @@ TEST(FlatSurface, ConvexShapesByTheirCorners) {
 
 TEST(FlatSurface, CurvesByLinesWithinTheirTolerance) {
     const Circle circle{{100, -20}, 8};
-    const Surface<2> surface = surface_of(view(circle), true);
+    const Surface<2> surface = *surface_of(view(circle), true);
     EXPECT_GT(surface.facets.size(), 50u);
     EXPECT_LT(surface.facets.size(), 500u);
     for (std::size_t i = 0; i < surface.facets.size(); ++i) {
@@ -73,26 +73,26 @@ TEST(FlatSurface, TilesHaveNoEdgesBetweenThem) {
     ASSERT_TRUE(map);
     for (const Pose2& pose : {Pose2(), Pose2{{1234.567f, -89.01f}, Turn{0.8f, 0.6f}}}) {
         const auto placed = at(*map, pose);
-        const Surface<2> surface = surface_of(view(placed), true);
+        const Surface<2> surface = *surface_of(view(placed), true);
         expect_fronts_are_free(placed, surface, 0.01f);
         // Above, the full tile has three free sides, the slope its own and one more. Below, there are the left side,
         // that of the tile without one above it, three and a half below and half a side above, and the right side.
         EXPECT_NEAR(length_of(surface), 0.7f * (3 + 1.41421356f + 1 + 1 + 1 + 3.5f + 0.5f + 1), 1e-3);
     }
     const std::vector<Tile> block(12, Tile::full);
-    const Surface<2> surface = surface_of(view(*TileMap::build(block, 4, 2)), true);
+    const Surface<2> surface = *surface_of(view(*TileMap::build(block, 4, 2)), true);
     EXPECT_EQ(surface.facets.size(), 14u);
     EXPECT_FLOAT_EQ(length_of(surface), 28);
 }
 
 TEST(FlatSurface, OneWayTilesAndOpenLinesAreFreeOnBothSides) {
     const std::vector<Tile> tiles{Tile::one_way_low_y, Tile::empty, Tile::full};
-    const Surface<2> surface = surface_of(view(*TileMap::build(tiles, 3, 1)), true);
+    const Surface<2> surface = *surface_of(view(*TileMap::build(tiles, 3, 1)), true);
     ASSERT_EQ(surface.facets.size(), 5u);
     EXPECT_TRUE(surface.is_two_sided(0));
     for (std::size_t i = 1; i < 5; ++i) EXPECT_FALSE(surface.is_two_sided(i));
     const Result<Chain> line = Chain::build({{0, 0}, {4, 0}, {4, 3}, {0, 3}}, true);
-    const Surface<2> lines = surface_of(view(*line), false);
+    const Surface<2> lines = *surface_of(view(*line), false);
     ASSERT_EQ(lines.facets.size(), 4u);
     for (std::size_t i = 0; i < 4; ++i) EXPECT_TRUE(lines.is_two_sided(i));
 }
@@ -105,7 +105,7 @@ TEST(FlatSurface, WhatLinesGoAroundIsBehindThem) {
             if (turned) std::reverse(outer.begin(), outer.end());
             if (hole_turned) std::reverse(inner.begin(), inner.end());
             const Outlines wall{{*Chain::build(outer, true), *Chain::build(inner, true)}, FillRule::even_odd};
-            const Surface<2> surface = surface_of(view(wall), true);
+            const Surface<2> surface = *surface_of(view(wall), true);
             EXPECT_EQ(surface.facets.size(), 8u);
             expect_fronts_are_free(wall, surface, 0.05f);
             for (std::size_t i = 0; i < 8; ++i) EXPECT_FALSE(surface.is_two_sided(i));
@@ -124,7 +124,7 @@ TEST(FlatSurface, IsCrossedByAllPathsIn) {
         const Result<Polygon> polygon = Polygon::build({{1.3f, 1.2f}, {4.1f, 1.9f}, {2.2f, 4.4f}});
         const Result<Compound2> compound = Compound2::build({AnyShape<2>(*map), AnyShape<2>(*polygon)});
         ASSERT_TRUE(compound);
-        const Surface<2> surface = surface_of(view(*compound), true);
+        const Surface<2> surface = *surface_of(view(*compound), true);
         for (int i = 0; i < 200; ++i) {
             const Vec2 from(random.uniform_float(-1, 7), random.uniform_float(-1, 6)),
                 to(random.uniform_float(-1, 7), random.uniform_float(-1, 6));

@@ -17,8 +17,9 @@ public:
           options_(options),
           filter_(objects, options.pairs, options.bodies),
           workers_(static_cast<std::uint32_t>(options.threads)),
+          piles_(objects, options.limits, filter_),
           overlapping_(filter_),
-          swept_pairs_(objects, options.limits, filter_, workers_),
+          swept_pairs_(objects, options.limits, filter_, piles_, workers_),
           findings_(options.max_findings) {}
 
     std::optional<Problem> test(std::size_t frame);
@@ -30,6 +31,7 @@ private:
     const CheckOptions& options_;
     PairFilter filter_;
     ThreadPool workers_;
+    Piles<D> piles_;
     OverlappingPairs<D> overlapping_;
     SweptPairs<D> swept_pairs_;
     ContactFindings<D> findings_;
@@ -43,7 +45,8 @@ std::optional<Problem> Checker<D>::test(std::size_t frame) {
     boxes_.resize(objects_.size());
     for (std::size_t i = 0; i < objects_.size(); ++i)
         boxes_[i] = objects_[i].present ? grown(objects_[i].box, 0.5f * options_.limits.clearance) : Aabb<D>::empty();
-    if (std::optional<Problem> problem = overlapping_.find(boxes_)) return problem;
+    if (std::optional<Problem> problem = overlapping_.find(boxes_, piles_, [&] { piles_.find(boxes_, frame); }))
+        return problem;
     const std::vector<Pair>& pairs = overlapping_.pairs();
     const auto rests = [&](const Pair& pair) {
         return frame > 0 && !objects_[pair.first].moved && !objects_[pair.second].moved;
@@ -84,6 +87,7 @@ template <int D>
 CheckResult<D> Checker<D>::finish(std::size_t frames) {
     CheckResult<D> result;
     result.findings = findings_.take();
+    result.piles = piles_.all();
     result.left_out = findings_.left_out();
     result.tested = tested_;
     result.swept = swept_pairs_.swept();

@@ -4,6 +4,7 @@
 
 #include "tool/check/contact_findings.hpp"
 #include "tool/check/pair_filter.hpp"
+#include "tool/check/piles.hpp"
 #include "tool/objects/objects.hpp"
 #include "tool/shared/progress.hpp"
 
@@ -24,6 +25,7 @@ struct CheckOptions {
 template <int D>
 struct CheckResult {
     std::vector<ContactFinding<D>> findings;  ///< sorted by pair and time
+    std::vector<Pile<D>> piles;               ///< their pairs are not among the findings
     std::uint64_t left_out = 0;               ///< count of findings beyond the maximum
     std::uint64_t tested = 0;                 ///< count of pair tests, over all frames
     std::uint64_t swept = 0;                  ///< count of pairs swept between frames, over all stages

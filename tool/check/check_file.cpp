@@ -7,6 +7,7 @@
 #include "tool/objects/bodies.hpp"
 #include "tool/objects/solid_objects.hpp"
 #include "tool/shared/left_out.hpp"
+#include "tool/shared/printable.hpp"
 #include "tool/shared/progress.hpp"
 #include "tool/shared/stopwatch.hpp"
 
@@ -184,12 +185,13 @@ Result<FileReport> FileCheck<D>::run() {
     seconds_.build = watch_.lap();
 
     FileReport report;
-    report.file = file_;
+    report.file = printable(file_);
     report.dimension = D;
     report.units = units_of(file_);
     report.notes = file->warnings;
     if (!solid->note.empty()) report.notes.push_back(solid->note);
     const LevelView<D> level = level_view(*file, objects, times.front());
+    if (level.problem) return with_file(*level.problem);
     if (const std::optional<Problem> problem = find(report, objects, times, level, *bodies)) return with_file(*problem);
     remove_ignored(report, plan_.ignored);
     if (plan_.baseline) {

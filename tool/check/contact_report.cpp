@@ -1,6 +1,8 @@
 #include "tool/check/contact_report.hpp"
 
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -95,12 +97,45 @@ private:
     const std::vector<double>& times_;
 };
 
+template <int D>
+Finding finding_of(const Pile<D>& pile, const Objects<D>& objects, const std::vector<double>& times) {
+    Finding finding;
+    finding.rule = Rule::pile;
+    Json names = Json::array();
+    for (const std::uint32_t i : pile.objects) {
+        finding.objects.push_back({objects[i].path, objects[i].name, objects[i].type});
+        names.push_back(objects[i].path);
+    }
+    const std::uint64_t count = pile.objects.size(), pairs = count * (count - 1) / 2;
+    finding.text =
+        fmt::format("{} objects are in one place, at {}: each two of them overlap", count, vector(pile.point));
+    if (pile.last > pile.first || pile.first > 0)
+        finding.text += fmt::format(", from {} s to {} s", number(times[pile.first]), number(times[pile.last]));
+    finding.position = coordinates(pile.point);
+    finding.time = times[pile.first];
+    finding.badness = std::numeric_limits<double>::max();
+    finding.data = {{"objects", std::move(names)},
+                    {"pairs", pairs},
+                    {"position", numbers(pile.point)},
+                    {"depth", 2 * pile.depth},
+                    {"frame", pile.first},
+                    {"last_frame", pile.last},
+                    {"time", times[pile.first]},
+                    {"last_time", times[pile.last]}};
+    return finding;
+}
+
 }  // namespace
 
 template <int D>
 std::vector<Finding> findings_of(const CheckResult<D>& result, const Objects<D>& objects,
                                  const std::vector<double>& times, const Severities& severities) {
     std::vector<Finding> findings;
+    for (const Pile<D>& pile : result.piles)
+        if (severities.of(Rule::pile) != Severity::off) {
+            findings.push_back(finding_of(pile, objects, times));
+            findings.back().severity = severities.of(Rule::pile);
+        }
     for (const ContactFinding<D>& contact : result.findings) {
         const Rule rule = rule_of(contact);
         if (severities.of(rule) == Severity::off) continue;

@@ -16,6 +16,8 @@ std::string subject(const Finding& finding, const char* between) {
             if (finding.objects.size() == 1) return "within " + first;
             [[fallthrough]];
         case Kind::contact:
+            if (finding.rule == Rule::pile) return first + " and others";
+            [[fallthrough]];
         case Kind::inside:
             return first + between + finding.objects.back().path;
         default:

@@ -40,6 +40,8 @@ public:
         return sides_.empty() || std::any_of(sides_.begin(), sides_.end(),
                                              [&](const Sides& s) { return (s.a[i] && s.b[j]) || (s.a[j] && s.b[i]); });
     }
+    /// True if no pair is left out.
+    bool has_all_pairs() const { return sides_.empty() && (bodies_.empty() || count_within_bodies() == 0); }
     std::uint64_t count(std::size_t items) const {
         if (sides_.empty()) return pairs_of(items) - count_within_bodies();
         std::uint64_t result = 0;

@@ -7,6 +7,7 @@
 namespace abut::tool {
 
 const char* array_of(Rule rule) {
+    if (rule == Rule::pile) return "piles";
     switch (info(rule).kind) {
         case Kind::spawn:
             return "spawns";

@@ -12,8 +12,8 @@
 namespace abut::tool {
 
 /// The members of a report that list findings.
-inline constexpr std::array<const char*, 6> finding_arrays{"contacts",   "spawns", "gaps",
-                                                           "duplicates", "leaks",  "floating"};
+inline constexpr std::array<const char*, 7> finding_arrays{"contacts",   "piles", "spawns",  "gaps",
+                                                           "duplicates", "leaks", "floating"};
 
 /// The member that lists the findings of a rule.
 const char* array_of(Rule rule);

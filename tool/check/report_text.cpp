@@ -29,6 +29,7 @@ const std::vector<Phrase>& phrases() {
          "spawns are blocked or out of place"},
         {{Rule::inside}, "object is inside another", "objects are inside others", true},
         {{Rule::overlap, Rule::between_frames}, "pair collides", "pairs collide", true},
+        {{Rule::pile}, "pile of objects in one place", "piles of objects in one place"},
         {{Rule::too_near}, "pair comes too near", "pairs come too near", true},
         {{Rule::narrow_passage, Rule::narrow_detour}, "passage is too narrow", "passages are too narrow"},
         {{Rule::same_object}, "object is duplicated", "objects are duplicated"},

@@ -16,6 +16,7 @@ constexpr std::array<RuleInfo, count_rules> rules{{
      "Two objects are closer than the clearance"},
     {Rule::between_frames, "ABUT103", Kind::contact, Severity::error, "between-frames",
      "Two objects collide between two frames"},
+    {Rule::pile, "ABUT104", Kind::contact, Severity::error, "pile", "Many objects are in one place"},
     {Rule::inside, "ABUT201", Kind::inside, Severity::error, "inside", "An object is inside another one"},
     {Rule::spawn_blocked, "ABUT301", Kind::spawn, Severity::error, "spawn-blocked", "A spawn is inside an object"},
     {Rule::spawn_beneath, "ABUT302", Kind::spawn, Severity::error, "spawn-beneath", "A spawn is below the ground"},

@@ -24,6 +24,7 @@ enum class Rule : std::uint8_t {
     overlap,
     too_near,
     between_frames,
+    pile,
     inside,
     spawn_blocked,
     spawn_beneath,
@@ -38,7 +39,7 @@ enum class Rule : std::uint8_t {
     flipped,
     floating,
 };
-inline constexpr std::size_t count_rules = 16;
+inline constexpr std::size_t count_rules = 17;
 
 struct RuleInfo {
     Rule rule;

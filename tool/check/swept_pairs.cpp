@@ -125,7 +125,7 @@ std::optional<Problem> SweptPairs<D>::test(const Stage<D>& stage, const ContactF
         boxes_[i] = stage.parts[i] == StageMotion::discontinuous
                         ? Aabb<D>::empty()
                         : grown(swept_box(objects_[i], stage.motions[i]), 0.5f * limits_.clearance);
-    if (std::optional<Problem> problem = overlapping_.find(boxes_)) return problem;
+    if (std::optional<Problem> problem = overlapping_.find(boxes_, piles_)) return problem;
     swept_pairs_.clear();
     for (const Pair& pair : overlapping_.pairs()) {
         const bool moves =

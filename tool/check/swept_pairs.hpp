@@ -18,8 +18,9 @@ template <int D>
 class SweptPairs {
 public:
     /// Refers to all arguments.
-    SweptPairs(const Objects<D>& objects, const Limits& limits, const PairFilter& selection, Executor& workers)
-        : objects_(objects), limits_(limits), overlapping_(selection), workers_(workers) {}
+    SweptPairs(const Objects<D>& objects, const Limits& limits, const PairFilter& selection, const Piles<D>& piles,
+               Executor& workers)
+        : objects_(objects), limits_(limits), piles_(piles), overlapping_(selection), workers_(workers) {}
 
     /// Sweeps all pairs through a stage; `at_first` has the contacts of the frame before it.
     std::optional<Problem> test(const Stage<D>& stage, const ContactFindings<D>& at_first);
@@ -44,6 +45,7 @@ private:
 
     const Objects<D>& objects_;
     const Limits& limits_;
+    const Piles<D>& piles_;  ///< of the frame before
     OverlappingPairs<D> overlapping_;
     Executor& workers_;
     std::vector<Aabb<D>> boxes_;

@@ -7,6 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <span>
+#include <string>
 #include <tuple>
 #include <utility>
 
@@ -50,7 +53,62 @@ void add_edges(const Convex<2>& part, std::vector<Edge>& edges) {
     for (std::size_t i = 0; i < corners.size(); ++i) edges.push_back({corners[i], corners[(i + 1) % corners.size()]});
 }
 
-std::vector<Edge> edges_of(const View<2>& shape) {
+// The sides of full tiles that other full tiles lie against.
+class TileSides {
+public:
+    explicit TileSides(const TileMap& map) : tiles_(map.tiles()), columns_(map.columns()), rows_(map.rows()) {}
+
+    bool is_inside(std::uint32_t tile) const {
+        return tiles_[tile] == Tile::full && has_full(tile, {-1, 0}) && has_full(tile, {1, 0}) &&
+               has_full(tile, {0, -1}) && has_full(tile, {0, 1});
+    }
+    bool is_internal(std::uint32_t tile, const Edge& edge, const Vec2& center) const {
+        if (tiles_[tile] != Tile::full) return false;
+        const Vec2 out = 0.5f * (edge.from + edge.to) - center;
+        const bool is_across_x = std::abs(out.x) > std::abs(out.y);
+        const int sign = (is_across_x ? out.x : out.y) > 0 ? 1 : -1;
+        return has_full(tile, is_across_x ? glm::ivec2(sign, 0) : glm::ivec2(0, sign));
+    }
+
+private:
+    bool has_full(std::uint32_t tile, const glm::ivec2& step) const {
+        const std::int64_t x = tile % columns_ + step.x, y = tile / columns_ + step.y;
+        if (x < 0 || y < 0 || x >= columns_ || y >= rows_) return false;
+        return tiles_[static_cast<std::size_t>(x + y * columns_)] == Tile::full;
+    }
+
+    std::span<const Tile> tiles_;
+    std::int64_t columns_, rows_;
+};
+
+// Edges of a tile map, without those between two full tiles; nothing if there are too many.
+std::optional<std::vector<Edge>> edges_of(const View<2>& shape, const TileMap& map) {
+    std::vector<Edge> edges, of_tile;
+    std::vector<std::pair<std::uint32_t, std::size_t>> order;
+    const TileSides sides(map);
+    const auto& composite = std::get<Composite<2>>(shape);
+    each_part<2>(composite, bounds(composite), [&](const Convex<2>& part, std::uint32_t index) {
+        if (sides.is_inside(index)) return true;
+        of_tile.clear();
+        add_edges(part, of_tile);
+        const Vec2 center = abut::center(bounds(View<2>(part)));
+        for (const Edge& edge : of_tile) {
+            if (sides.is_internal(index, edge, center)) continue;
+            order.emplace_back(index, edges.size());
+            edges.push_back(edge);
+        }
+        return edges.size() <= max_outline_edges;
+    });
+    if (edges.size() > max_outline_edges) return std::nullopt;
+    std::sort(order.begin(), order.end());
+    std::vector<Edge> sorted;
+    sorted.reserve(edges.size());
+    for (const auto& [part, i] : order) sorted.push_back(edges[i]);
+    return sorted;
+}
+
+// Nothing if there are too many.
+std::optional<std::vector<Edge>> edges_of(const View<2>& shape) {
     std::vector<Edge> edges;
     if (const auto* convex = std::get_if<Convex<2>>(&shape)) add_edges(*convex, edges);
     if (const auto* composite = std::get_if<Composite<2>>(&shape)) {
@@ -59,8 +117,9 @@ std::vector<Edge> edges_of(const View<2>& shape) {
         each_part<2>(*composite, bounds(*composite), [&](const Convex<2>& part, std::uint32_t index) {
             add_edges(part, visited);
             while (order.size() < visited.size()) order.emplace_back(index, order.size());
-            return true;
+            return visited.size() <= 2 * max_outline_edges;
         });
+        if (visited.size() > 2 * max_outline_edges) return std::nullopt;
         std::sort(order.begin(), order.end());
         for (const auto& [part, i] : order) edges.push_back(visited[i]);
     }
@@ -141,18 +200,27 @@ void add_intersections(const Edge& edge, const Edge& other, double tolerance, st
     if (on_other > 0 && on_other < 1) splits.push_back(cross(other_from - from, other_along) / cross_product);
 }
 
-// Splits edges at all intersections, so that each side of a segment is uniform.
-std::vector<Edge> split(const std::vector<Edge>& edges, float tolerance) {
+// Splits edges at all intersections, so that each side of a segment is uniform. Nothing if there are too many.
+std::optional<std::vector<Edge>> split(const std::vector<Edge>& edges, float tolerance) {
     std::vector<Aabb2> boxes;
     for (const Edge& edge : edges)
         boxes.push_back(grown(merged(Aabb2{edge.from, edge.from}, Aabb2{edge.to, edge.to}), tolerance));
     Bvh<2> tree;
     tree.build(boxes);
     std::vector<std::vector<double>> splits(edges.size());
+    std::size_t crossings = 0;
+    const auto count_inner = [](const std::vector<double>& fractions, std::size_t first) {
+        return std::count_if(fractions.begin() + static_cast<std::ptrdiff_t>(first), fractions.end(),
+                             [](double fraction) { return fraction > 1e-3 && fraction < 1 - 1e-3; });
+    };
     tree.each_pair([&](std::uint32_t i, std::uint32_t j) {
+        const std::size_t first = splits[i].size();
         add_intersections(edges[i], edges[j], static_cast<double>(tolerance), splits[i]);
         add_intersections(edges[j], edges[i], static_cast<double>(tolerance), splits[j]);
+        crossings += count_inner(splits[i], first) > 0 ? 1 : 0;
+        return crossings <= max_outline_crossings;
     });
+    if (crossings > max_outline_crossings) return std::nullopt;
     std::vector<Edge> segments;
     for (std::size_t i = 0; i < edges.size(); ++i) {
         const Edge& edge = edges[i];
@@ -184,11 +252,18 @@ bool is_free(const View<2>& shape, const Edge& edge, float side) {
 
 }  // namespace
 
-Surface<2> surface_of(const View<2>& shape, bool filled) {
+Result<Surface<2>> surface_of(const View<2>& shape, bool filled, const TileMap* tiles) {
     const float tolerance = weld_ulps * std::numeric_limits<float>::epsilon() * largest_coordinate(bounds(shape));
     const bool is_convex = std::holds_alternative<Convex<2>>(shape);
-    std::vector<Edge> edges = edges_of(shape);
-    if (filled && !is_convex) edges = split(without_internal(edges, tolerance), tolerance);
+    std::optional<std::vector<Edge>> found = tiles != nullptr ? edges_of(shape, *tiles) : edges_of(shape);
+    if (!found)
+        return Problem{ProblemCode::too_large,
+                       "its outline has more than " + std::to_string(max_outline_edges) + " edges, the limit"};
+    if (filled && !is_convex) found = split(without_internal(*found, tolerance), tolerance);
+    if (!found)
+        return Problem{ProblemCode::too_large, "its outline crosses itself more than " +
+                                                   std::to_string(max_outline_crossings) + " times, the limit"};
+    const std::vector<Edge> edges = *std::move(found);
     EdgeLoops loops(edges, tolerance);
     Surface<2> surface;
     const auto add = [&](const Surface<2>::Facet& facet, bool two_sided) {

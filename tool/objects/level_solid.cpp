@@ -30,15 +30,19 @@ Result<LevelSolid> level_solid(const Level& level) {
     for (const LevelObject& object : level.objects) {
         if (has_inside(object))
             std::visit([&](const auto& shape) { areas.emplace_back(at(shape, object.pose)); }, object.shape);
+        else if (const Result<Surface<2>> surface = surface_of(view(object), false); surface)
+            add(*surface, segments);
         else
-            add(surface_of(view(object), false), segments);
+            return Problem{surface.problem().code, "object '" + object.path + "': " + surface.problem().message};
     }
     std::optional<Compound2> together;
     if (!areas.empty()) {
         const Result<Compound2> built = Compound2::build(areas);
         if (!built) return built.problem();
         together = *built;
-        add(surface_of(view(*together), true), segments);
+        const Result<Surface<2>> surface = surface_of(view(*together), true);
+        if (!surface) return Problem{surface.problem().code, "all objects together: " + surface.problem().message};
+        add(*surface, segments);
     }
     if (segments.empty()) return Problem{ProblemCode::empty_input, "there is nothing in it that has a surface"};
     const Result<Compound2> boundary = Compound2::build(segments);

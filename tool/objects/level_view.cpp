@@ -69,7 +69,12 @@ LevelView<2> level_view(const Level& level, const LevelObjects& objects, double)
         // Tiles and the parts of a compound are solid.
         object.filled =
             object.filled || std::holds_alternative<TileMap>(shape) || std::holds_alternative<Compound2>(shape);
-        object.surface = surface_of(object.shape, object.filled);
+        Result<Surface<2>> surface = surface_of(object.shape, object.filled, std::get_if<TileMap>(&shape));
+        if (surface)
+            object.surface = *std::move(surface);
+        else if (!result.problem)
+            result.problem =
+                Problem{surface.problem().code, "object '" + object.path + "': " + surface.problem().message};
     }
     std::set<std::string_view> solid;
     for (const ViewedObject<2>& object : result.objects) solid.insert(object.path);

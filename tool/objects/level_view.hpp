@@ -4,6 +4,7 @@
 
 #include "tool/objects/level_objects.hpp"
 #include "tool/objects/scene_objects.hpp"
+#include <abut/math/result.hpp>
 #include <abut/math/vec.hpp>
 #include <abut/shape/view/view.hpp>
 
@@ -57,6 +58,7 @@ template <int D>
 struct LevelView {
     std::vector<ViewedObject<D>> objects;  ///< sorted by path
     std::vector<NamedPlace<D>> places;     ///< sorted by path
+    std::optional<Problem> problem = {};   ///< an object whose outline is beyond the limits
 };
 
 /// Refers to the objects, which must be at the given time. Objects that are not present are left out.

@@ -8,15 +8,15 @@
 namespace abut::tool {
 namespace {
 
-struct Character {
+struct CodePoint {
     std::uint32_t code = 0;
     std::size_t bytes = 1;
 };
 
 // The character at the start of the text; nothing if it isn't valid UTF-8.
-std::optional<Character> first_character(std::string_view text) {
+std::optional<CodePoint> first_character(std::string_view text) {
     const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(text[i]); };
-    if (byte(0) < 0x80) return Character{byte(0), 1};
+    if (byte(0) < 0x80) return CodePoint{byte(0), 1};
     const std::size_t bytes = byte(0) >= 0xf0 ? 4 : byte(0) >= 0xe0 ? 3 : 2;
     if (byte(0) < 0xc2 || byte(0) > 0xf4 || bytes > text.size()) return std::nullopt;
     std::uint32_t code = byte(0) & (0xffu >> (bytes + 1));
@@ -27,7 +27,7 @@ std::optional<Character> first_character(std::string_view text) {
     const std::uint32_t least = bytes == 2 ? 0x80 : bytes == 3 ? 0x800 : 0x10000;
     const bool is_surrogate = code >= 0xd800 && code <= 0xdfff;
     if (code < least || code > 0x10ffff || is_surrogate) return std::nullopt;
-    return Character{code, bytes};
+    return CodePoint{code, bytes};
 }
 
 bool is_control(std::uint32_t code) {
@@ -45,7 +45,7 @@ bool reorders(std::uint32_t code) {
 std::string printable(std::string_view text) {
     std::string result;
     while (!text.empty()) {
-        const std::optional<Character> next = first_character(text);
+        const std::optional<CodePoint> next = first_character(text);
         const std::size_t bytes = next ? next->bytes : 1;
         if (!next)
             result += fmt::format("\\x{:02x}", static_cast<std::uint8_t>(text[0]));

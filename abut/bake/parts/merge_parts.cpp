@@ -1,5 +1,7 @@
 #include <abut/bake/parts/concavity.hpp>
 #include <abut/bake/parts/merge_parts.hpp>
+#include <abut/broad_phase/bvh.hpp>
+#include <abut/broad_phase/k_nearest.hpp>
 #include <abut/math/dvec.hpp>
 
 #include <algorithm>
@@ -38,10 +40,18 @@ public:
 
     void run(std::size_t max_parts) {
         const double limit = length_as_volume(threshold_.limit);
-        for (std::uint32_t a = 0; a < parts_.size(); ++a)
-            for (std::uint32_t b = a + 1; b < parts_.size(); ++b) consider(a, b);
         std::size_t count = parts_.size();
-        while (!merges_.empty()) {
+        bool has_all_pairs = count <= max_for_all_pairs;
+        has_all_pairs ? consider_all() : consider_nearest();
+        for (;;) {
+            // With few parts left, or no neighbours, others count as well.
+            if (!has_all_pairs && count <= max_for_all_pairs) {
+                has_all_pairs = true;
+                merges_.clear();
+                consider_all();
+            }
+            if (merges_.empty() && !has_all_pairs && count > max_parts) consider_nearest();
+            if (merges_.empty()) break;
             const Merge best = *merges_.begin();
             merges_.erase(merges_.begin());
             if (!alive_[best.a] || !alive_[best.b]) continue;
@@ -59,8 +69,13 @@ public:
             alive_.push_back(true);
             --count;
             const auto last = static_cast<std::uint32_t>(parts_.size() - 1);
-            for (std::uint32_t other = 0; other < last; ++other)
-                if (alive_[other]) consider(other, last);
+            if (has_all_pairs) {
+                for (std::uint32_t other = 0; other < last; ++other)
+                    if (alive_[other]) consider(other, last);
+            } else {
+                inherit_neighbours(best.a, best.b, last);
+                for (const std::uint32_t other : neighbours_[last]) consider(other, last);
+            }
         }
         std::vector<MergePart> result;
         for (std::size_t i = 0; i < parts_.size(); ++i)
@@ -69,6 +84,72 @@ public:
     }
 
 private:
+    /// Above this number of parts only neighbours are merged: the time for all pairs is quadratic.
+    static constexpr std::size_t max_for_all_pairs = 512;
+    static constexpr std::size_t max_neighbours = 16;
+
+    void consider_all() {
+        for (std::uint32_t a = 0; a < parts_.size(); ++a)
+            for (std::uint32_t b = a + 1; b < parts_.size(); ++b)
+                if (alive_[a] && alive_[b]) consider(a, b);
+    }
+
+    DVec<3> center(std::uint32_t part) const { return (part_hulls_[part].min + part_hulls_[part].max) / 2.0; }
+
+    /// Considers each part with those whose centres are nearest to its own.
+    void consider_nearest() {
+        std::vector<std::uint32_t> parts;
+        std::vector<Aabb<3>> boxes;
+        for (std::uint32_t i = 0; i < parts_.size(); ++i) {
+            if (!alive_[i]) continue;
+            parts.push_back(i);
+            const Vec3 at = to_float(center(i));
+            boxes.push_back({at, at});
+        }
+        neighbours_.assign(parts_.size(), {});
+        merged_into_.resize(parts_.size());
+        for (std::uint32_t i = 0; i < parts_.size(); ++i) merged_into_[i] = i;
+        Bvh<3> tree;
+        tree.build(boxes);
+        std::vector<NearItem> nearest;
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+            k_nearest<3>(tree, boxes, boxes[i].min, max_neighbours + 1, nearest);
+            for (const NearItem& found : nearest)
+                if (found.item != i) neighbours_[parts[i]].push_back(parts[found.item]);
+        }
+        for (const std::uint32_t part : parts)
+            for (const std::uint32_t other : neighbours_[part])
+                if (part < other || !has_neighbour(other, part)) consider(std::min(part, other), std::max(part, other));
+    }
+
+    bool has_neighbour(std::uint32_t part, std::uint32_t other) const {
+        return std::find(neighbours_[part].begin(), neighbours_[part].end(), other) != neighbours_[part].end();
+    }
+
+    /// The part that a part is in by now.
+    std::uint32_t current(std::uint32_t part) {
+        while (merged_into_[part] != part) part = merged_into_[part] = merged_into_[merged_into_[part]];
+        return part;
+    }
+
+    /// The neighbours of a merged part are the nearest of those of both.
+    void inherit_neighbours(std::uint32_t a, std::uint32_t b, std::uint32_t both) {
+        merged_into_.push_back(both);
+        merged_into_[a] = merged_into_[b] = both;
+        std::vector<std::uint32_t> all;
+        for (const std::uint32_t part : {a, b})
+            for (const std::uint32_t neighbour : neighbours_[part])
+                if (const std::uint32_t now = current(neighbour); now != both) all.push_back(now);
+        std::sort(all.begin(), all.end());
+        all.erase(std::unique(all.begin(), all.end()), all.end());
+        const DVec<3> middle = center(both);
+        std::stable_sort(all.begin(), all.end(), [&](std::uint32_t p, std::uint32_t q) {
+            return length_squared(center(p) - middle) < length_squared(center(q) - middle);
+        });
+        if (all.size() > max_neighbours) all.resize(max_neighbours);
+        neighbours_.push_back(std::move(all));
+    }
+
     void add_part_hull(const std::vector<DVec<3>>& points) {
         PartHull hull_of_part{{}, points.front(), points.front()};
         for (const std::uint32_t corner : hull_.corners()) {
@@ -121,6 +202,8 @@ private:
     std::vector<bool> alive_;
     std::vector<PartHull> part_hulls_;
     std::set<Merge> merges_;
+    std::vector<std::vector<std::uint32_t>> neighbours_;  ///< of each part, if not all pairs are considered
+    std::vector<std::uint32_t> merged_into_;
     std::vector<DVec<3>> points_of_both_;
 };
 

@@ -56,7 +56,7 @@ void select_colliders(Scene& scene) {
         (is_collider ? colliders : others)++;
     }
     if (colliders == 0) return;
-    std::map<std::uint32_t, std::uint32_t> hull_of;
+    std::map<std::uint32_t, std::uint32_t> hulls;
     for (SceneNode& node : scene.nodes) {
         if (node.geometries.empty()) continue;
         const std::optional<ColliderName> meaning = collider_name(name_of(node));
@@ -67,7 +67,7 @@ void select_colliders(Scene& scene) {
         if (*meaning == ColliderName::mesh) continue;
         for (std::uint32_t& geometry : node.geometries) {
             const auto [known, is_new] =
-                hull_of.try_emplace(geometry, static_cast<std::uint32_t>(scene.geometries.size()));
+                hulls.try_emplace(geometry, static_cast<std::uint32_t>(scene.geometries.size()));
             if (is_new) {
                 Geometry hull = hull_mesh(scene.geometries[geometry]);
                 scene.geometries.push_back(std::move(hull));

@@ -251,7 +251,8 @@ public:
             farthest = std::max({farthest, largest(DVec<3>(box.min)), largest(DVec<3>(box.max))});
         step_ = 1e-9 * smaller + 1e-14 * farthest;
         float_step_ = 0x1p-23 * farthest;
-        if (a_.triangle_count() + b_.triangle_count() <= min_fine_triangles) return;
+        is_fine_ = a_.triangle_count() + b_.triangle_count() > min_fine_triangles;
+        if (!is_fine_) return;
         cover_.add_balls(shape_a, shape_b);
         max_meets_ = max_meets_if_fine;
     }
@@ -333,21 +334,30 @@ private:
         DVec<3> normal{0.0};
     };
 
-    /// Of some triangles that cross at a distance along a direction, or a step farther on, those that part last.
+    /// Of some triangles that cross at a distance along a direction, or a step farther on, those that part last. Of
+    /// fine solids all are tested, and only those that part last are added to the cover: slivers about one corner cross
+    /// in thousands of pairs, most of which part at once.
     Crossing crossing_at(const DVec<3>& direction, double distance, double limit) {
         Crossing result;
         int crossing_count = 0;
+        std::optional<std::array<std::uint32_t, 2>> last;
+        double last_to = 0;
         each_triangle_pair(
             a_, b_.moved(direction * distance), static_cast<float>(2 * step_),
             [&](std::uint32_t index_a, const Corners& a, std::uint32_t index_b, const Corners& b) {
                 SlideInterval slide;
                 if (!slide_interval(a, b, direction, {step_, 2 * step_}, slide)) return true;
-                if (slide.from < -step_) cover_.add_pair(index_a, index_b);
+                if (slide.from < -step_ && !is_fine_) cover_.add_pair(index_a, index_b);
+                if (slide.from < -step_ && is_fine_ && slide.to > last_to) {
+                    last = {index_a, index_b};
+                    last_to = slide.to;
+                }
                 if (!result.found || distance + slide.to > result.to)
                     result = {true, distance + slide.from, distance + slide.to, slide.exit_normal};
-                return result.to < limit && ++crossing_count < max_crossings;
+                return result.to < limit && (is_fine_ || ++crossing_count < max_crossings);
             },
             direction);
+        if (last) cover_.add_pair((*last)[0], (*last)[1]);
         return result;
     }
 
@@ -409,7 +419,8 @@ private:
 
     PlacedSolid a_, b_;
     MoveCover cover_;
-    double step_ = 0;  ///< a distance that doesn't count
+    double step_ = 0;       ///< a distance that doesn't count
+    bool is_fine_ = false;  ///< the two have many triangles
     TriedDirections tried_;
     int max_meets_ = 512;  ///< how many meets of planes are tried
 };
