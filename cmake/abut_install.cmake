@@ -59,4 +59,21 @@ if(ABUT_TOOL)
         set_target_properties(abut_tool PROPERTIES INSTALL_RPATH $<$<PLATFORM_ID:Linux>:$ORIGIN/${to_libraries}>)
     endif()
     install(TARGETS abut_tool RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+    # The tool itself writes its man page and completions, where it can run.
+    if(NOT CMAKE_CROSSCOMPILING OR CMAKE_CROSSCOMPILING_EMULATOR)
+        set(help ${PROJECT_BINARY_DIR}/help)
+        add_custom_command(OUTPUT ${help}/abut.1 ${help}/abut ${help}/_abut ${help}/abut.fish
+            COMMAND ${CMAKE_COMMAND} -E make_directory ${help}
+            COMMAND abut_tool help --man > ${help}/abut.1
+            COMMAND abut_tool help --completions bash > ${help}/abut
+            COMMAND abut_tool help --completions zsh > ${help}/_abut
+            COMMAND abut_tool help --completions fish > ${help}/abut.fish
+            DEPENDS abut_tool COMMENT "Writing the man page and completions")
+        add_custom_target(abut_help ALL DEPENDS ${help}/abut.1)
+        add_dependencies(abut_product abut_help)
+        install(FILES ${help}/abut.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+        install(FILES ${help}/abut DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+        install(FILES ${help}/_abut DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
+        install(FILES ${help}/abut.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
+    endif()
 endif()

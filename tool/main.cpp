@@ -1,13 +1,12 @@
 // The tool `abut`: collision checks for asset pipelines. Parses the command line and runs the verb.
 
 #include "tool/arguments.hpp"
-#include "tool/shared/out_of_memory.hpp"
+#include "tool/command/command_line.hpp"
 #include "tool/verbs.hpp"
 
-#include <cstdio>
+#include <functional>
 #include <map>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,11 +15,6 @@
 
 namespace abut::tool {
 namespace {
-
-int fail(const std::string& message) {
-    std::fputs(one_line(message).c_str(), stderr);
-    return unusable;
-}
 
 constexpr const char* files =
     "3D: glTF 2.0, or any format that Assimp reads; 2D: a Tiled map (.tmx, .tmj) or a drawing (.svg)";
@@ -420,97 +414,67 @@ Result<ExitCode> run_replay(ReplayArguments& arguments) {
     return run_replay(arguments.request);
 }
 
-int run(int count, char** arguments) {
-    CLI::App app(
-        "Checks scenes and levels for collisions: which objects touch, where, how deep and when. Makes convex parts, "
-        "signed distance fields and walk meshes from meshes.",
-        "abut");
-    app.set_version_flag("--version", "abut " ABUT_VERSION);
-    app.require_subcommand(1);
-    app.footer("Exits with 0 if all is fine, 1 if something was found, 2 for bad input or usage.");
-
-    CheckArguments check;
-    CLI::App& check_verb = *app.add_subcommand(
-        "check",
-        "Reports which objects of a scene or a level touch, where, how deep and when, and other faults of the level");
-    add_options(check_verb, check);
-    InitArguments init;
-    CLI::App& init_verb = *app.add_subcommand("init", "Writes an abut.toml that ignores what abut check finds now");
-    add_options(init_verb, init);
-    CastArguments cast;
-    CLI::App& cast_verb =
-        *app.add_subcommand("cast", "Reports the objects that a ray hits, with or without reflections");
-    add_options(cast_verb, cast);
-    HullArguments hull;
-    CLI::App& hull_verb = *app.add_subcommand("hull", "Writes the convex hull of a mesh");
-    add_options(hull_verb, hull);
-    FixRequest fix;
-    CLI::App& fix_verb =
-        *app.add_subcommand("fix", "Writes the meshes of a scene without the faults that have one right answer");
-    add_options(fix_verb, fix);
-    DecomposeArguments decompose;
-    CLI::App& decompose_verb = *app.add_subcommand("decompose", "Writes an approximate convex decomposition of a mesh");
-    add_options(decompose_verb, decompose);
-    FieldArguments field;
-    CLI::App& field_verb = *app.add_subcommand("field", "Bakes the signed distance field of a mesh or a level");
-    add_options(field_verb, field);
-    WalkArguments walk;
-    CLI::App& walk_verb =
-        *app.add_subcommand("walk", "Checks a walk mesh: its connected components, its border, and paths over it");
-    add_options(walk_verb, walk);
-    InfoRequest info;
-    CLI::App& info_verb = *app.add_subcommand("info", "Lists the contents of a scene, a level, a field or a walk mesh");
-    add_options(info_verb, info);
-    ReplayArguments replay;
-    CLI::App& replay_verb = *app.add_subcommand(
-        "replay", "Runs the recording of a world again, and reports where an answer differs, with the C++ for it");
-    add_options(replay_verb, replay);
-
-    try {
-        app.parse(count, arguments);
-    } catch (const CLI::ParseError& error) {
-        if (error.get_exit_code() == 0) return app.exit(error);
-        if (app.get_subcommands().empty() && count > 1 && arguments[1][0] != '-')
-            return fail("'" + std::string(arguments[1]) + "' is not a verb; abut --help lists them");
-        return fail(error.what());
+// All verbs with their arguments.
+class Tool {
+public:
+    Tool() {
+        add(
+            "check",
+            "Reports which objects of a scene or a level touch, where, how deep and when, and other faults of the "
+            "level",
+            check_, run_check,
+            [this] { return check_.request.scenes.empty() ? std::string() : check_.request.scenes.front(); },
+            ": --pairs selects fewer objects");
+        add("init", "Writes an abut.toml that ignores what abut check finds now", init_, run_init,
+            [this] { return init_.request.scene; });
+        add("cast", "Reports the objects that a ray hits, with or without reflections", cast_, run_cast,
+            [this] { return cast_.request.scene; });
+        add("hull", "Writes the convex hull of a mesh", hull_, run_hull, [this] { return hull_.request.mesh; });
+        add("fix", "Writes the meshes of a scene without the faults that have one right answer", fix_, run_fix,
+            [this] { return fix_.mesh; });
+        add("decompose", "Writes an approximate convex decomposition of a mesh", decompose_, run_decompose,
+            [this] { return decompose_.request.mesh; });
+        add(
+            "field", "Bakes the signed distance field of a mesh or a level", field_, run_field,
+            [this] { return field_.request.mesh; }, ": a larger --cell needs less");
+        add("walk", "Checks a walk mesh: its connected components, its border, and paths over it", walk_, run_walk,
+            [this] { return walk_.request.mesh; });
+        add("info", "Lists the contents of a scene, a level, a field or a walk mesh", info_, run_info,
+            [this] { return info_.scene; });
+        add("replay", "Runs the recording of a world again, and reports where an answer differs, with the C++ for it",
+            replay_, run_replay, [this] { return replay_.request.file; });
     }
-    const bool checks = check_verb.parsed();
-    const bool bakes = field_verb.parsed();
-    const std::string& file = checks                    ? check.request.scenes.front()
-                              : init_verb.parsed()      ? init.request.scene
-                              : cast_verb.parsed()      ? cast.request.scene
-                              : hull_verb.parsed()      ? hull.request.mesh
-                              : fix_verb.parsed()       ? fix.mesh
-                              : decompose_verb.parsed() ? decompose.request.mesh
-                              : bakes                   ? field.request.mesh
-                              : walk_verb.parsed()      ? walk.request.mesh
-                              : replay_verb.parsed()    ? replay.request.file
-                                                        : info.scene;
-    const std::string too_large = file + ": needs more memory than there is" +
-                                  (checks  ? ": --pairs selects fewer objects"
-                                   : bakes ? ": a larger --cell needs less"
-                                           : "");
-    exit_when_out_of_memory(too_large);
-    try {
-        const Result<ExitCode> code = checks                    ? run_check(check)
-                                      : init_verb.parsed()      ? run_init(init)
-                                      : cast_verb.parsed()      ? run_cast(cast)
-                                      : hull_verb.parsed()      ? run_hull(hull)
-                                      : fix_verb.parsed()       ? run_fix(fix)
-                                      : decompose_verb.parsed() ? run_decompose(decompose)
-                                      : bakes                   ? run_field(field)
-                                      : walk_verb.parsed()      ? run_walk(walk)
-                                      : replay_verb.parsed()    ? run_replay(replay)
-                                                                : run_info(info);
-        return code ? static_cast<int>(*code) : fail(code.problem().message);
-    } catch (const std::length_error&) {
-        return fail(too_large);
+
+    int run(const std::vector<std::string>& words) { return command_.run(words); }
+
+private:
+    template <class Arguments>
+    void add(const char* name, const char* summary, Arguments& arguments, Result<ExitCode> (*call)(Arguments&),
+             std::function<std::string()> input, const char* less_memory = "") {
+        add_options(command_.add_verb(name, summary,
+                                      {[call, &arguments] { return call(arguments); }, std::move(input), less_memory}),
+                    arguments);
     }
-}
+
+    static Result<ExitCode> run_fix(FixRequest& request) { return tool::run_fix(request); }
+    static Result<ExitCode> run_info(InfoRequest& request) { return tool::run_info(request); }
+
+    CommandLine command_;
+    CheckArguments check_;
+    InitArguments init_;
+    CastArguments cast_;
+    HullArguments hull_;
+    FixRequest fix_;
+    DecomposeArguments decompose_;
+    FieldArguments field_;
+    WalkArguments walk_;
+    InfoRequest info_;
+    ReplayArguments replay_;
+};
 
 }  // namespace
 }  // namespace abut::tool
 
 int main(int count, char** arguments) {
-    return abut::tool::run(count, arguments);
+    return abut::tool::Tool().run({arguments + 1, arguments + count});
 }

@@ -132,7 +132,7 @@ TEST_F(Tool, BadUsageIsRefused) {
     const std::string file = write("fine.gltf", boxes_at({0, 1})).string();
     refusal({});
     refusal({"check"});
-    EXPECT_EQ(refusal({"chekc", file}), "abut: 'chekc' is not a verb; abut --help lists them");
+    EXPECT_EQ(refusal({"chekc", file}), "abut: 'chekc' is not a verb; did you mean 'check'?");
     refusal({"check", file, "--unknown"});
     refusal({"check", file, "again"});
     EXPECT_EQ(refusal({"check", file, "--frames", "0"}), "abut: --frames: '0' is not a whole number from 1 to 1000000");

@@ -1,5 +1,7 @@
 #include "tool/check/report_text.hpp"
 
+#include "tool/shared/color.hpp"
+
 #include <algorithm>
 #include <cstddef>
 #include <set>
@@ -95,8 +97,11 @@ std::vector<Group> by_subject(const Group& section) {
 std::string text_of(const Group& section) {
     std::set<std::string_view> codes;
     for (const Finding* finding : section) codes.insert(info(finding->rule).code);
-    std::string text = fmt::format("{}{} ({})\n", section.front()->severity == Severity::warning ? "warnings: " : "",
-                                   heading(info(section.front()->rule).kind), fmt::join(codes, ", "));
+    std::string text =
+        colored(Tone::heading,
+                fmt::format("{}{} ({})", section.front()->severity == Severity::warning ? "warnings: " : "",
+                            heading(info(section.front()->rule).kind), fmt::join(codes, ", "))) +
+        "\n";
     const std::vector<Group> groups = by_subject(section);
     for (std::size_t i = 0; i < groups.size() && i < max_listed; ++i) {
         text += fmt::format("{:4}. {}\n", i + 1, subject(*groups[i].front(), "  and  "));
@@ -131,7 +136,10 @@ std::string verdict_line(const FileReport& report) {
 }
 
 std::string text_of(const FileReport& report) {
-    std::string text = report.file + "\n" + verdict_line(report) + "\n\n";
+    const Tone tone = report.count(Severity::error) > 0 ? Tone::error
+                      : report.findings.empty()         ? Tone::fine
+                                                        : Tone::warning;
+    std::string text = report.file + "\n" + colored(tone, verdict_line(report)) + "\n\n";
     const std::vector<Finding>& all = report.findings;
     for (std::size_t begin = 0, end = 0; begin < all.size(); begin = end) {
         Group section;
