@@ -124,6 +124,11 @@ void add_options(CLI::App& verb, CheckArguments& arguments) {
     verb.add_option("-j,--threads", arguments.threads,
                     "Threads to compute with; default: one for each core. The report is the same with any number")
         ->type_name("N");
+    verb.add_option("--report", request.page,
+                    "Write a page to FILE too, which shows each finding in its place; one scene only")
+        ->type_name("FILE.html");
+    verb.add_option("--svg", request.picture, "Draw the scene with all findings too; one scene only")
+        ->type_name("FILE.svg");
     verb.add_option("--sarif", request.sarif, "Write the findings to FILE as SARIF 2.1.0 too")->type_name("FILE");
     verb.add_option("--junit", request.junit, "Write the findings to FILE as JUnit's XML too")->type_name("FILE");
     CLI::Option* github =

@@ -24,8 +24,9 @@ struct CheckRequest {
     Settings settings;                  ///< of the command line
     std::optional<std::string> config;  ///< instead of the abut.toml of each file; empty: none
     bool json = false, github = false;
-    std::optional<std::string> sarif, junit;  ///< files to write
-    std::size_t threads = 0;                  ///< 0: one for each core
+    std::optional<std::string> sarif, junit;   ///< files to write
+    std::optional<std::string> page, picture;  ///< files to write, of one scene: HTML and SVG
+    std::size_t threads = 0;                   ///< 0: one for each core
 };
 
 Result<ExitCode> run_check(const CheckRequest& request);

@@ -1,4 +1,5 @@
 #include "tool/cast/cast_report.hpp"
+#include "tool/shared/flipped.hpp"
 #include "tool/shared/picture.hpp"
 #include <abut/draw/draw.hpp>
 #include <abut/math/dvec.hpp>
@@ -70,31 +71,6 @@ void draw_all(Canvas<D>& canvas, const CastReport<D>& report) {
             if (is_hit[i] == hit) draw_object(canvas, report.objects[i], hit ? hit_thing : plain);
     draw_ray(canvas, report);
 }
-
-// A canvas whose y axis points down, for levels.
-class Flipped final : public Canvas<2> {
-public:
-    explicit Flipped(Canvas<2>& canvas) : paper_(canvas) {}
-
-    Aabb2 shown() const override { return flipped(paper_.shown()); }
-    void line(const Vec2& a, const Vec2& b, const Style& style) override { paper_.line(flipped(a), flipped(b), style); }
-    void point(const Vec2& position, const Style& style) override { paper_.point(flipped(position), style); }
-    void polygon(std::span<const Vec2> points, const Style& style) override {
-        std::vector<Vec2> turned;
-        for (const Vec2& p : points) turned.push_back(flipped(p));
-        std::reverse(turned.begin(), turned.end());
-        paper_.polygon(turned, style);
-    }
-    void ball(const Vec2& center, float radius, const Style& style) override {
-        paper_.ball(flipped(center), radius, style);
-    }
-
-    static Vec2 flipped(const Vec2& p) { return {p.x, -p.y}; }
-    static Aabb2 flipped(const Aabb2& box) { return {{box.min.x, -box.max.y}, {box.max.x, -box.min.y}}; }
-
-private:
-    Canvas<2>& paper_;
-};
 
 }  // namespace
 

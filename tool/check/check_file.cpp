@@ -6,6 +6,7 @@
 #include "tool/faults/fault_report.hpp"
 #include "tool/objects/bodies.hpp"
 #include "tool/objects/solid_objects.hpp"
+#include "tool/page/documents.hpp"
 #include "tool/shared/left_out.hpp"
 #include "tool/shared/printable.hpp"
 #include "tool/shared/progress.hpp"
@@ -210,6 +211,7 @@ Result<FileReport> FileCheck<D>::run() {
     sort_findings(report.findings);
     add_notes<D>(report, objects, times, plan_.frames.has_value());
     summarise(report, objects, times, left_out_of(*file));
+    add_documents(report, plan_, *file, objects, times, level);
     return report;
 }
 

@@ -44,6 +44,7 @@ struct FileReport {
     std::vector<std::string> notes;
     std::string summary;            ///< lines of text: counts, and seconds
     Json details = Json::object();  ///< the same for the JSON report
+    std::string page, picture;      ///< documents of --report and --svg; empty if the plan wants none
 
     std::size_t count(Severity severity) const {
         std::size_t result = 0;

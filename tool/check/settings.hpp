@@ -53,6 +53,7 @@ struct CheckPlan {
     std::optional<std::string> baseline;
     std::optional<std::size_t> frames;  ///< default: the file's key times
     bool warnings_as_errors = false;
+    bool wants_page = false, wants_picture = false;  ///< documents that show the findings
     FileOptions files;
 };
 

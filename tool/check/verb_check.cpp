@@ -4,6 +4,7 @@
 #include "tool/check/report_json.hpp"
 #include "tool/check/report_text.hpp"
 #include "tool/check/scene_list.hpp"
+#include "tool/page/report_template.hpp"
 #include "tool/shared/version.hpp"
 #include "tool/verbs.hpp"
 
@@ -11,6 +12,8 @@
 #include <cstdio>
 #include <thread>
 #include <utility>
+
+#include <fmt/format.h>
 
 namespace abut::tool {
 namespace {
@@ -33,7 +36,11 @@ std::vector<CheckedFile> check_all(const std::vector<std::string>& scenes, const
         request.threads > 0 ? request.threads : std::max<std::size_t>(1, std::thread::hardware_concurrency());
     std::vector<CheckedFile> checked;
     for (const std::string& scene : scenes) {
-        const Result<CheckPlan> plan = plan_for(scene, request);
+        Result<CheckPlan> plan = plan_for(scene, request);
+        if (plan) {
+            plan->wants_page = request.page.has_value();
+            plan->wants_picture = request.picture.has_value();
+        }
         checked.push_back({scene, plan ? check_file(scene, *plan, threads) : Result<FileReport>(plan.problem())});
     }
     return checked;
@@ -68,13 +75,34 @@ ExitCode exit_code_of(const std::vector<CheckedFile>& checked) {
     return code;
 }
 
+// The page and the picture are of one scene.
+std::optional<Problem> check_documents(const CheckRequest& request, std::size_t scenes) {
+    for (const auto& [option, file] : {std::pair("--report", request.page), std::pair("--svg", request.picture)})
+        if (file && scenes != 1)
+            return Problem{ProblemCode::bad_argument,
+                           fmt::format("{} takes one scene, and here are {}", option, scenes)};
+    if (request.page && report_template.empty())
+        return Problem{ProblemCode::bad_argument, "--report: this abut was built without npm and has no page to write"};
+    return std::nullopt;
+}
+
+std::optional<Problem> write_documents(const CheckRequest& request, const std::vector<CheckedFile>& checked) {
+    if (checked.size() != 1 || !checked[0].report) return std::nullopt;
+    std::optional<Problem> problem;
+    if (request.page) problem = write_picture(*request.page, checked[0].report->page);
+    if (!problem && request.picture) problem = write_picture(*request.picture, checked[0].report->picture);
+    return problem;
+}
+
 }  // namespace
 
 Result<ExitCode> run_check(const CheckRequest& request) {
     if (const Result<CheckPlan> plan = plan_of(request.settings); !plan) return plan.problem();
     const Result<std::vector<std::string>> scenes = scenes_of(request.scenes);
     if (!scenes) return scenes.problem();
+    if (const std::optional<Problem> problem = check_documents(request, scenes->size())) return *problem;
     const std::vector<CheckedFile> checked = check_all(*scenes, request);
+    if (std::optional<Problem> problem = write_documents(request, checked)) return *std::move(problem);
     if (request.sarif)
         if (std::optional<Problem> problem = write_picture(*request.sarif, sarif_of(checked)))
             return *std::move(problem);
