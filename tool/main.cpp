@@ -1,7 +1,9 @@
 // The tool `abut`: collision checks for asset pipelines. Parses the command line and runs the verb.
 
 #include "tool/arguments.hpp"
+#include "tool/bake/bake_arguments.hpp"
 #include "tool/command/command_line.hpp"
+#include "tool/shared/version.hpp"
 #include "tool/verbs.hpp"
 
 #include <functional>
@@ -448,6 +450,8 @@ public:
             [this] { return info_.scene; });
         add("replay", "Runs the recording of a world again, and reports where an answer differs, with the C++ for it",
             replay_, run_replay, [this] { return replay_.request.file; });
+        add("bake", "Does one of these with every file of a list, and stores the results", bake_, run_bake,
+            [this] { return bake_.request.list; });
     }
 
     int run(const std::vector<std::string>& words) { return command_.run(words); }
@@ -463,6 +467,7 @@ private:
 
     static Result<ExitCode> run_fix(FixRequest& request) { return tool::run_fix(request); }
     static Result<ExitCode> run_info(InfoRequest& request) { return tool::run_info(request); }
+    static Result<ExitCode> run_bake(BakeArguments& arguments);
 
     CommandLine command_;
     CheckArguments check_;
@@ -475,7 +480,24 @@ private:
     WalkArguments walk_;
     InfoRequest info_;
     ReplayArguments replay_;
+    BakeArguments bake_;
 };
+
+Result<ExitCode> Tool::run_bake(BakeArguments& arguments) {
+    BakeRequest& request = arguments.request;
+    std::optional<std::string> problem = parse_option("--shard", arguments.shard, parse_shard, request.shard);
+    if (!problem) problem = parse_option("--audit", arguments.audit, parse_percent, request.audit);
+    if (problem) return Problem{ProblemCode::bad_argument, *problem};
+    if (!output_ending(request.task.verb))
+        return Problem{ProblemCode::bad_argument,
+                       "--verb: '" + request.task.verb + "' is not one of check, hull, decompose, field and walk"};
+    Result<std::vector<std::string>> options = Tool().command_.canonical_options(request.task.verb, arguments.options);
+    if (!options) return options.problem();
+    request.task.version = version();
+    request.task.options = *std::move(options);
+    request.task.run = [](const std::vector<std::string>& words) { return Tool().run(words); };
+    return tool::run_bake(request);
+}
 
 }  // namespace
 }  // namespace abut::tool

@@ -14,7 +14,7 @@ namespace {
 using test::Json;
 using test::Ran;
 
-const std::vector<std::string> verbs{"check", "init", "cast", "hull",   "decompose", "field",
+const std::vector<std::string> verbs{"check", "init", "cast", "hull", "fix",   "decompose", "field",
                                      "walk",  "info", "bake", "replay", "help"};
 
 class Help : public test::ToolRuns {};

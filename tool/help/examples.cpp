@@ -29,6 +29,7 @@ const std::vector<VerbExamples>& all_examples() {
         {"hull",
          {{"abut hull rock.obj -o rock.glb", "the convex hull of all objects"},
           {"abut hull rock.obj -o rock.glb --each --max-vertices 32", "a hull per object, with few vertices"}}},
+        {"fix", {{"abut fix level.obj -o fixed.glb", "welded, without doubles and areas of zero, oriented alike"}}},
         {"decompose",
          {{"abut decompose house.glb -o parts.glb", "at most 32 convex parts"},
           {"abut decompose house.glb -o parts.glb --parts 100 --picture parts.svg", "more parts, and a picture"}}},
