@@ -215,16 +215,6 @@ void add_options(CLI::App& verb, FixRequest& request) {
         "oriented outwards. Holes stay. Objects are placed as at the first moment of the animation.");
 }
 
-void add_options(CLI::App& verb, FixRequest& request) {
-    verb.add_option("MESH", request.mesh, mesh_files)->required();
-    verb.add_option("-o,--output", request.output, mesh_output)->type_name("OUT")->required();
-    verb.add_flag("--json", request.json, "Print one JSON object instead of text");
-    add_options(verb, request.files, false);
-    verb.footer(
-        "Coincident corners are welded, duplicate triangles and those of zero area removed, and closed surfaces "
-        "oriented outwards. Holes stay. Objects are placed as at the first moment of the animation.");
-}
-
 // Arguments of `abut decompose`; numbers are still text.
 struct DecomposeArguments {
     DecomposeRequest request;

@@ -34,7 +34,7 @@ protected:
 };
 
 /// The boxes of all objects in world space, by their paths.
-std::map<std::string, Aabb3> boxes(const Scene& scene, double time = 0) {
+std::map<std::string, Aabb3> boxes_at(const Scene& scene, double time = 0) {
     std::vector<glm::dmat4> matrices;
     world_matrices(scene, time, matrices);
     std::map<std::string, Aabb3> result;
@@ -59,7 +59,7 @@ TEST_F(GltfExtensions, InstancesAreNodes) {
                                    R"(,"extensions":{"EXT_mesh_gpu_instancing":{"attributes":{"TRANSLATION":)" +
                                    std::to_string(places) + ",\"SCALE\":" + std::to_string(scales) + "}}}");
     builder_.add_text(R"(,"extensionsRequired":["EXT_mesh_gpu_instancing"])");
-    const auto all = boxes(read());
+    const auto all = boxes_at(read());
     ASSERT_EQ(all.size(), 2u);
     EXPECT_EQ(all.at("Trees/instance 0").min, Vec3(9, -1, -1));
     EXPECT_EQ(all.at("Trees/instance 1").max, Vec3(2, 22, 2));
@@ -105,9 +105,9 @@ void add_skinned_box(GltfBuilder& builder, std::uint8_t joint) {
 TEST_F(GltfExtensions, SkinsArePosedAndMoveWithTheirRoot) {
     add_skinned_box(builder_, 0);
     const Scene scene = read();
-    ASSERT_EQ(boxes(scene).size(), 1u);
-    EXPECT_EQ(boxes(scene).at("Hip/Figure").min, Vec3(-1, 4, -1)) << "the node's own place doesn't count";
-    EXPECT_EQ(boxes(scene, 1).at("Hip/Figure").min, Vec3(-1, 12, -1));
+    ASSERT_EQ(boxes_at(scene).size(), 1u);
+    EXPECT_EQ(boxes_at(scene).at("Hip/Figure").min, Vec3(-1, 4, -1)) << "the node's own place doesn't count";
+    EXPECT_EQ(boxes_at(scene, 1).at("Hip/Figure").min, Vec3(-1, 12, -1));
     EXPECT_TRUE(scene.nodes[0].is_body) << "parts of one figure may overlap";
 }
 
@@ -127,7 +127,7 @@ TEST_F(GltfExtensions, MorphTargetsAreAppliedAtTheFirstTime) {
     const int moving = builder_.add_node("Moving", ",\"mesh\":" + std::to_string(mesh));
     const int times = builder_.add_floats({0, 1}, "SCALAR", 2), weights = builder_.add_floats({1, 0}, "SCALAR", 2);
     builder_.add_animation("Blink", times, weights, moving, "weights", "LINEAR");
-    const auto all = boxes(read());
+    const auto all = boxes_at(read());
     EXPECT_EQ(all.at("Still").min, Vec3(-1, -1, -1));
     EXPECT_EQ(all.at("Smile").min, Vec3(-1, 4, -1));
     EXPECT_EQ(all.at("Moving").min, Vec3(-1, 9, -1));

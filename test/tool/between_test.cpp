@@ -321,12 +321,16 @@ TEST(NearPairs, TooManyAreAProblem) {
     };
     const std::vector<Thing> things(5);
     const PairFilter all(things, {});
+    const Scene nothing;
+    const SceneObjects no_objects(nothing);
+    const Limits limits{};
+    const Piles<3> no_piles(no_objects, limits, all);
     OverlappingPairs<3> enough(all, 10), few(all, 9);
-    EXPECT_FALSE(enough.find(boxes));
+    EXPECT_FALSE(enough.find(boxes, no_piles));
     EXPECT_EQ(enough.pairs().size(), 10u);
-    const std::optional<Problem> problem = few.find(boxes);
+    const std::optional<Problem> problem = few.find(boxes, no_piles);
     ASSERT_TRUE(problem);
-    EXPECT_EQ(problem->message, "more than 9 pairs of objects overlap: --pairs selects fewer");
+    EXPECT_EQ(problem->message, "more than 9 pairs of objects overlap, the limit: --pairs selects fewer");
 }
 
 }  // namespace

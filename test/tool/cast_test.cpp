@@ -92,7 +92,7 @@ TEST_F(Cast, ReportsAllHits) {
               std::string::npos)
         << ran.out;
     EXPECT_EQ(refusal({"cast", file, "--from", "-3,0,0", "--to", "9,0,0", "--all", "--bounces", "3"}),
-              "abut: --bounces excludes --all");
+              "abut: --bounces excludes --all; `abut help cast` explains it");
 }
 
 TEST_F(Cast, FromInsideSaysSo) {

@@ -14,8 +14,8 @@ namespace {
 using test::Json;
 using test::Ran;
 
-const std::vector<std::string> verbs{"check", "init", "cast", "hull", "fix",   "decompose", "field",
-                                     "walk",  "info", "bake", "replay", "help"};
+const std::vector<std::string> verbs{"check", "init", "cast", "hull", "fix",    "decompose",
+                                     "field", "walk", "info", "bake", "replay", "help"};
 
 class Help : public test::ToolRuns {};
 

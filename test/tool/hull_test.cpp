@@ -117,7 +117,7 @@ TEST_F(HullVerb, RefusesInOneLine) {
     EXPECT_TRUE(refused(write("empty.glb", "").string(), out("hull.obj")).ends_with(": is empty"));
     EXPECT_TRUE(
         refused(write("plan.svg", "<svg/>").string(), out("hull.obj")).ends_with(": is a 2D level, and has no meshes"));
-    EXPECT_EQ(refusal({"hull", file}), "abut: --output is required");
+    EXPECT_EQ(refusal({"hull", file}), "abut: --output is required; `abut help hull` explains it");
 
     GltfBuilder nan;
     nan.add_node("Box", nan.add_mesh("Box", box_triangles({NAN, 1, 1})));

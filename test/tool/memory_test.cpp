@@ -42,7 +42,7 @@ protected:
 // 719,400 pairs took 2,126 MB, and more many times as much.
 TEST_F(Memory, ContactsBeyondTheLimitAreCountedAlone) {
     const std::string file = grid_of_rods(1200);
-    const Ran ran = run_within(500, {"check", file, "--json"});
+    const Ran ran = run_within(1000, {"check", file, "--json"});
     ASSERT_EQ(ran.code, 1) << ran.err;
     const Json json = Json::parse(ran.out);
     EXPECT_EQ(json["contacts"].size(), 100'000u);

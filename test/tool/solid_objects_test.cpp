@@ -50,7 +50,7 @@ TEST_F(SolidObjectsInMaps, ALayerOfCollisionsIsAllThatCollides) {
               (Solid{{"Ground", false}, {"Collision", true}, {"Objects/door", false}, {"Objects/crate", false}}));
     EXPECT_EQ(solid(map(things("Collisions", box("a", "collision")) + things("Events", box("b", "event")))),
               (Solid{{"Collisions/a", true}, {"Events/b", false}}));
-    EXPECT_EQ(solid(file, {"Objects", "Ground"}),
+    EXPECT_EQ(solid(file, {"Objects/*", "Ground"}),
               (Solid{{"Ground", true}, {"Collision", false}, {"Objects/door", true}, {"Objects/crate", true}}));
     const Json json = checked({file}, 0);
     EXPECT_EQ(json["objects"], 1);
@@ -98,11 +98,11 @@ TEST_F(SolidObjectsInMaps, TheGroundIsOneBody) {
 
 // Monsters appear anywhere in an area: it is at fault if no place in it is free.
 TEST_F(SolidObjectsInMaps, AreasOfSpawnsNeedOneFreePlace) {
-    const std::string area = "<object name='wolves' type='spawn' x='0' y='0' width='32' height='16'/>";
+    const std::string area = "<object name='wolves' type='spawn' x='5' y='4' width='24' height='8'/>";
     EXPECT_EQ(checked({map(tiles("Collision", "1,0,0,0,0,0,0,0") + things("Objects", area))}, 0)["spawn_points"], 1);
     const Json json = checked({map(tiles("Collision", "1,1,1,0,1,1,1,0") + things("Objects", area))}, 1);
     ASSERT_EQ(json["spawns"].size(), 1u);
-    EXPECT_EQ(json["spawns"][0]["position"], Json({16.0, 8.0}));
+    EXPECT_EQ(json["spawns"][0]["position"], Json({17.0, 8.0}));
     const std::string anywhere = "<object name='wolves' type='spawn' x='0' y='0'/>";
     EXPECT_EQ(checked({map(tiles("Collision", "1,1,1,0,1,1,1,0") + things("Objects", anywhere))}, 0)["spawn_points"],
               0);

@@ -8,12 +8,12 @@
 namespace abut::tool {
 namespace {
 
-constexpr Character person{0.3f, 1.8f};
+constexpr Character walker{0.3f, 1.8f};
 
 std::vector<Gap<3>> gaps_for(Scene scene, std::vector<std::string>* notes = nullptr) {
     const test::SpaceLevel level(std::move(scene));
     FaultOptions options;
-    options.character = person;
+    options.character = walker;
     const Result<LevelFaults<3>> faults = find_faults(level.view_of(), options, Severities());
     EXPECT_TRUE(faults);
     if (notes != nullptr) *notes = faults->notes;
@@ -84,7 +84,7 @@ TEST(Walkable, ACharacterFallsButDoesntClimbBack) {
     const test::SpaceLevel level(scene);
     const FacetTree<3> facets(level.view_of().objects);
     const std::vector<Vec3> on_roof{{-5, 5, 0}}, in_yard{{5, 0, 0}};
-    const Walkable<3> down(facets, person, Vec3(0, 1, 0), on_roof), up(facets, person, Vec3(0, 1, 0), in_yard);
+    const Walkable<3> down(facets, walker, Vec3(0, 1, 0), on_roof), up(facets, walker, Vec3(0, 1, 0), in_yard);
     EXPECT_TRUE(down.reaches({5, 1, 0}, 0.3));
     EXPECT_TRUE(down.reaches({-5, 6, 0}, 0.3));
     EXPECT_TRUE(up.reaches({5, 1, 0}, 0.3));

@@ -66,6 +66,7 @@ CommandLine::CommandLine()
           "Checks scenes and levels for collisions: which objects touch, where, how deep and when. Makes convex parts, "
           "signed distance fields and walk meshes from meshes.",
           "abut") {
+    app_.require_subcommand(0, 1);  // so that `help check` has one, and a word
     app_.set_help_flag("-h,--help", "Print this text");
     app_.add_flag("--version", wants_version_, "Print the version; with --json as one JSON object");
     app_.add_flag("--json", wants_json_)->group("");

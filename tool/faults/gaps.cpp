@@ -69,8 +69,8 @@ bool is_passage(const FacetTree<D>& facets, Neck<D>& neck, const GapOptions<D>& 
         const std::optional<DVec<D>> other = one ? opening<D>(facets, neck, -direction, options.width) : std::nullopt;
         if (!other) continue;
         if (walkable == nullptr) return true;
-        const bool reaches_one = walkable->reaches(*one, options.width),
-                   reaches_other = walkable->reaches(*other, options.width);
+        const bool reaches_one = walkable->reaches(*one, options.width, neck.middle),
+                   reaches_other = walkable->reaches(*other, options.width, neck.middle);
         if (!reaches_one && !reaches_other) continue;
         neck.is_detour = reaches_one && reaches_other;
         return true;

@@ -28,7 +28,7 @@ constexpr float max_free_distance = 4;
 constexpr float clearance = 1e-3f;
 // Height above a point spawn at which the search for its ground starts, relative to the level's size: covers rounding.
 constexpr float ground_search_height = 1e-4f;
-// Places along each side of a spawn's area that are tried.
+// Places along each side of a spawn's area that are tried, off the seams of tiles.
 constexpr int places_along_area = 16;
 // Maximum number of objects that a spawn is moved out of, one after another.
 constexpr int max_push_outs = 4;
@@ -191,11 +191,11 @@ std::optional<SpawnFinding<D>> SpawnCheck<D>::test(std::size_t place) const {
     if (!finding || !spawn.area) return finding;
     // The places of a grid over the area; areas are of levels in 2D.
     const Vec<D> extent = spawn.area->max - spawn.area->min;
-    for (int i = 0; i <= places_along_area; ++i)
-        for (int j = 0; j <= places_along_area; ++j) {
+    for (int i = 0; i < places_along_area; ++i)
+        for (int j = 0; j < places_along_area; ++j) {
             Vec<D> position = spawn.position;
-            position[0] = spawn.area->min[0] + extent[0] * static_cast<float>(i) / places_along_area;
-            position[1] = spawn.area->min[1] + extent[1] * static_cast<float>(j) / places_along_area;
+            position[0] = spawn.area->min[0] + extent[0] * (static_cast<float>(i) + 0.5f) / places_along_area;
+            position[1] = spawn.area->min[1] + extent[1] * (static_cast<float>(j) + 0.5f) / places_along_area;
             if (!test(place, position)) return std::nullopt;
         }
     return finding;

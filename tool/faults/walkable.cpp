@@ -133,16 +133,16 @@ void Walkable<D>::visit_neighbours(const Place& place) {
 }
 
 template <int D>
-bool Walkable<D>::reaches(const DVec<D>& point, double distance) const {
-    Cell middle{};
+bool Walkable<D>::reaches(const DVec<D>& point, double distance, const std::optional<DVec<D>>& middle) const {
+    Cell center{};
     for (int i = 0; i < D; ++i)
-        if (!has_ground() || i != up_axis_) middle[static_cast<std::size_t>(i)] = std::llround(point[i] / radius_);
+        if (!has_ground() || i != up_axis_) center[static_cast<std::size_t>(i)] = std::llround(point[i] / radius_);
     const auto window = static_cast<std::int64_t>(std::ceil(distance / radius_)) + 2;
     const std::size_t x = has_ground() && up_axis_ == 0 ? 1 : 0, y = has_ground() && up_axis_ != 2 ? 2 : 1;
     for (std::int64_t i = -window; i <= window; ++i)
         for (std::int64_t j = -window; j <= window; ++j) {
             if (i * i + j * j > window * window) continue;
-            Place place{middle, 0};
+            Place place{center, 0};
             place.cell[x] += i;
             place.cell[y] += j;
             const auto found = heights_.find(place.cell);
@@ -151,7 +151,9 @@ bool Walkable<D>::reaches(const DVec<D>& point, double distance) const {
                 const double above = height_of(point) - height;
                 if (has_ground() && (above < -step_ || above > height_)) continue;
                 place.height = has_ground() ? std::max(height_of(point), height + step_) : 0;
-                if (facets_.is_visible(at(place), point)) return true;
+                const DVec<D> eye = at(place);
+                const bool is_beyond = middle && dot(eye - *middle, point - *middle) <= 0;
+                if (!is_beyond && facets_.is_visible(eye, point)) return true;
             }
         }
     return false;

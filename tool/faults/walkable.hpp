@@ -26,8 +26,9 @@ public:
              std::span<const Vec<D>> spawns);
 
     /// True if the character gets near this point: to a place that sees it, at most `distance` and two cells away, at a
-    /// height at which its body passes the point.
-    bool reaches(const DVec<D>& point, double distance) const;
+    /// height at which its body passes the point. The point may be the end of a passage with this middle: then only
+    /// places on the same side of the middle count, and none that looks through the passage.
+    bool reaches(const DVec<D>& point, double distance, const std::optional<DVec<D>>& middle = std::nullopt) const;
 
     /// True if nothing is in the way of a character that passes the point upright, however thin it is. In 2D always.
     bool has_headroom(const DVec<D>& point) const;

@@ -1,5 +1,5 @@
 // Opens pages of `abut check --report` in a browser.
-//   node report.mjs ABUT SCENES OUT      ABUT: the tool; SCENES: the folder of the bundled scenes; OUT: for pictures
+//   node report.mjs ABUT BUILT SCENES OUT     ABUT: the tool; BUILT, SCENES: the folders of the bundled scenes; OUT: for pictures
 // Ends with 77 where there is no chromium.
 
 import assert from "node:assert/strict";
@@ -9,7 +9,7 @@ import { join } from "node:path";
 import { pathToFileURL } from "node:url";
 import { chromium } from "playwright-core";
 
-const [abut, scenes, out] = process.argv.slice(2);
+const [abut, built, scenes, out] = process.argv.slice(2);
 const browserFile = "/usr/bin/chromium";
 if (!existsSync(browserFile)) {
     console.log(`skipped: there is no ${browserFile}`);
@@ -192,7 +192,7 @@ async function takePictures(name, url) {
 // --- the tests -----------------------------------------------------------------------------------------------------------
 
 try {
-    const level = pageOf("level", join(scenes, "level.gltf"));
+    const level = pageOf("level", join(built, "level.gltf"));
     const plateau = pageOf("plateau", join(scenes, "plateau.tmj"), ["--character", "6,24", "--up", "-y"]);
     await testUse(level, true);
     await testUse(plateau, false);
