@@ -11,7 +11,7 @@ if(npm)
     endif()
     set(result 0)
     if(NOT installed STREQUAL lock)
-        execute_process(COMMAND ${npm} ci --omit=dev --no-audit --no-fund WORKING_DIRECTORY ${folder}
+        execute_process(COMMAND ${npm} ci --omit=dev --no-audit --no-fund --fetch-retries=1 --fetch-timeout=60000 WORKING_DIRECTORY ${folder}
             OUTPUT_VARIABLE output ERROR_VARIABLE output RESULT_VARIABLE result)
         if(result EQUAL 0)
             file(WRITE ${folder}/installed ${lock})

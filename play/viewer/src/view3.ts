@@ -282,7 +282,7 @@ export class View3 implements View {
             this.marks.add(onTop(new LineSegments(geometry, new LineBasicMaterial({ color: markColor }))));
         if (finding.depth !== undefined)
             this.addLabel(rounded(finding.depth), "mark", () =>
-                finding.normal ? start.clone().addScaledVector(vector(finding.normal), 1.4 * length) : start,
+                finding.normal ? start.clone().addScaledVector(vector(finding.normal), 1.4 * length) : start.clone(),
             );
     }
 

@@ -97,27 +97,18 @@ async function open(url, { size = "desk", colors = "light" } = {}, use) {
 const rows = (page) => page.getByRole("option");
 const selected = (page) => page.locator('[role=option][aria-selected="true"]');
 
-/** True if the picture of the view has more than one colour. */
+/** True if the picture of the view has more than a few colours. */
 async function hasPicture(page) {
-    return page.evaluate(async () => {
-        await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
-        const canvas = document.querySelector(".canvas canvas");
-        const copy = document.createElement("canvas");
-        copy.width = canvas.width;
-        copy.height = canvas.height;
-        const context = copy.getContext("2d");
-        // Drawn and read within one frame, as the buffer is cleared after it.
-        document.querySelector('[aria-label="Zoom in"]').click();
-        return new Promise((done) =>
-            requestAnimationFrame(() => {
-                context.drawImage(canvas, 0, 0);
-                const { data } = context.getImageData(0, 0, copy.width, copy.height);
-                const colors = new Set();
-                for (let i = 0; i < data.length; i += 4 * 97) colors.add(data.slice(i, i + 4).join());
-                done(colors.size > 3);
-            }),
-        );
-    });
+    const png = await page.locator(".canvas canvas").screenshot();
+    return page.evaluate(async (bytes) => {
+        const bitmap = await createImageBitmap(new Blob([new Uint8Array(bytes)], { type: "image/png" }));
+        const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext("2d");
+        context.drawImage(bitmap, 0, 0);
+        const { data } = context.getImageData(0, 0, bitmap.width, bitmap.height);
+        const colors = new Set();
+        for (let i = 0; i < data.length; i += 4 * 97) colors.add(data.slice(i, i + 4).join());
+        return colors.size > 3;
+    }, [...png]);
 }
 
 async function testUse(url, isAnimated) {
