@@ -50,19 +50,19 @@ namespace {
 using game::Place;
 
 template <class V>
-constexpr bool converts = std::is_invocable_v<decltype(to_vec), const V&>;
+constexpr bool converts = std::is_invocable_v<decltype(abut::to_vec), const V&>;
 
-static_assert(to_vec(game::Vec3{1, 2, 3}) == Vec3(1, 2, 3));
-static_assert(to_vec(game::Vec2{1, 2}) == Vec2(1, 2));
-static_assert(to_vec(Vec3(1, 2, 3)) == Vec3(1, 2, 3));
-static_assert(to_vec(std::array<float, 2>{1, 2}) == Vec2(1, 2));
+static_assert(abut::to_vec(game::Vec3{1, 2, 3}) == Vec3(1, 2, 3));
+static_assert(abut::to_vec(game::Vec2{1, 2}) == Vec2(1, 2));
+static_assert(abut::to_vec(Vec3(1, 2, 3)) == Vec3(1, 2, 3));
+static_assert(abut::to_vec(std::array<float, 2>{1, 2}) == Vec2(1, 2));
 static_assert(from_vec<game::Vec3>(Vec3(1, 2, 3)).z == 3);
 static_assert(!converts<game::Vec4> && !converts<game::Nothing> && !converts<float> && !converts<const float*> &&
               !converts<std::array<float, 4>>);
 
 TEST(ToVec, Members) {
-    EXPECT_EQ(to_vec(game::Reordered{3, 2, 1}), Vec3(1, 2, 3));
-    EXPECT_EQ(to_vec(glm::dvec3(1, 2, 0.1)), Vec3(1, 2, 0.1f));
+    EXPECT_EQ(abut::to_vec(game::Reordered{3, 2, 1}), Vec3(1, 2, 3));
+    EXPECT_EQ(abut::to_vec(glm::dvec3(1, 2, 0.1)), Vec3(1, 2, 0.1f));
     const auto back = from_vec<game::Reordered>(Vec3(1, 2, 3));
     EXPECT_EQ(back.x, 1);
     EXPECT_EQ(back.z, 3);
@@ -72,8 +72,8 @@ TEST(ToVec, Members) {
 
 TEST(ToVec, Elements) {
     const float array[]{1, 2, 3};
-    EXPECT_EQ(to_vec(array), Vec3(1, 2, 3));
-    EXPECT_EQ(to_vec(game::Indexed{{1, 2, 3}}), Vec3(1, 2, 3));
+    EXPECT_EQ(abut::to_vec(array), Vec3(1, 2, 3));
+    EXPECT_EQ(abut::to_vec(game::Indexed{{1, 2, 3}}), Vec3(1, 2, 3));
     EXPECT_EQ(from_vec<game::Indexed>(Vec3(1, 2, 3)).elements, (std::array<short, 3>{1, 2, 3}));
     EXPECT_EQ((from_vec<std::array<double, 2>>(Vec2(1, 2))), (std::array<double, 2>{1, 2}));
 }
@@ -83,7 +83,7 @@ TEST(ToVec, Constructor) {
 }
 
 TEST(ToVec, FunctionsOfTheUserComeFirst) {
-    EXPECT_EQ(to_vec(Place{1, 2, 3}), Vec3(1, 3, -2));
+    EXPECT_EQ(abut::to_vec(Place{1, 2, 3}), Vec3(1, 3, -2));
     const Place back = from_vec<Place>(Vec3(1, 3, -2));
     EXPECT_EQ(back.x, 1);
     EXPECT_EQ(back.y, 2);
