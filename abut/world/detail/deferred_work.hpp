@@ -23,7 +23,7 @@ public:
 
     template <class Work>
     void run(Work&& work) {
-        std::uint8_t state = state_.load(std::memory_order_acquire);
+        std::uint32_t state = state_.load(std::memory_order_acquire);
         while (state != done) {
             if (state == pending && state_.compare_exchange_weak(state, running, std::memory_order_acquire)) {
                 work();
@@ -37,9 +37,10 @@ public:
     }
 
 private:
-    static constexpr std::uint8_t done = 0, pending = 1, running = 2;
+    static constexpr std::uint32_t done = 0, pending = 1, running = 2;
 
-    std::atomic<std::uint8_t> state_ = done;
+    /// Not a byte: RISC-V compares and exchanges bytes by calls into another library, which a program would have to link.
+    std::atomic<std::uint32_t> state_ = done;
 };
 
 }  // namespace abut::detail
