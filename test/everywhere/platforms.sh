@@ -60,18 +60,17 @@ everywhere_forbidden() {
     esac
 }
 
-# Names each function of a platform's objects that has such an instruction, and fails then.
+# Names each function of a platform's objects that has such an instruction, and fails then. LLVM's objdump knows all processors, and
+# takes a second where that of binutils takes minutes.
 everywhere_check_code() {
-    local name=$1 folder=build/everywhere/$1 tool=${2%% *}
-    case $name in
-        x86_64-* | i386 | mingw64) tool=objdump ;;
-        clang-cl | wasm32) tool=llvm-objdump-22 ;;
-        *) tool=${tool%g++}objdump ;;
-    esac
-    find "$folder/abut" "$folder/CMakeFiles" \( -name '*.o' -o -name '*.obj' \) -exec "$tool" -dC --no-show-raw-insn {} + |
+    local name=$1 folder=build/everywhere/$1 options=(-dC --no-show-raw-insn)
+    # The newest vector instructions, which it leaves out otherwise.
+    [ "$name" != s390x ] || options+=(--mcpu=arch13)
+    find "$folder/abut" "$folder/CMakeFiles" \( -name '*.o' -o -name '*.obj' \) -exec llvm-objdump-22 "${options[@]}" {} + |
         awk -v forbidden="^ *[0-9a-f]+:[ \t]+($(everywhere_forbidden "$name"))" '
             /^[0-9a-f]+ <[^.].*>:$/ { name = $0; ++functions }
-            $0 ~ forbidden && name != last { print name "\n" $0 > "/dev/stderr"; last = name; found = 1 }
+            # On ppc64le tables of jumps are among the instructions, and their entries read like some on register 31.
+            $0 ~ forbidden && !/[ \t]31, 31, / && name != last { print name "\n" $0 > "/dev/stderr"; last = name; found = 1 }
             END { exit found || functions < 1000 }'
 }
 
