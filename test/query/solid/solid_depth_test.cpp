@@ -78,10 +78,36 @@ TEST(SolidDepth, OfAKitPartsAndIsMostlyTheLeast) {
         if (!least) continue;
         ++known;
         ASSERT_GE(depth, *least * (1 - 1e-5) - 1e-6);
-        if (depth <= 1.05 * *least + 1e-6) ++near;
+        if (depth <= 1.001 * *least + 1e-6) ++near;
     }
     EXPECT_GT(known, pairs / 20);
-    EXPECT_GE(near, 0.95 * known) << near << " of " << known;
+    EXPECT_GE(near, 0.99 * known) << near << " of " << known;
+}
+
+/// Turned together, two solids are as deep as before, where no axis of the world is a way out.
+TEST(SolidDepth, OfAKitTurnedAsAWholeIsMostlyTheLeast) {
+    constexpr std::uint64_t seed = 20281;
+    SCOPED_TRACE(seed);
+    oracle::Random random(seed);
+    const Kit kit;
+    int known = 0, near = 0;
+    for (int i = 0; i < 2'000; ++i) {
+        const KitPair pair(kit, random);
+        const oracle::OverlappingMoves moves(kit.pieces[pair.a.piece], pair.a.position, kit.pieces[pair.b.piece],
+                                             pair.b.position);
+        const std::optional<double> least = moves.least_separation();
+        if (!least || *least == 0) continue;
+        SCOPED_TRACE(pair.text(kit));
+        const glm::quat turn = random.rotation<3>();
+        const auto a = at(solid(kit.meshes[pair.a.piece]), Pose3{turn * pair.a.position, turn});
+        const auto b = at(solid(kit.meshes[pair.b.piece]), Pose3{turn * pair.b.position, turn});
+        const double depth = -static_cast<double>(closest(a, b).distance);
+        ++known;
+        ASSERT_GE(depth, *least * (1 - 1e-5) - 1e-5);
+        if (depth <= 1.001 * *least + 1e-5) ++near;
+    }
+    EXPECT_GT(known, 50);
+    EXPECT_GE(near, 0.98 * known) << near << " of " << known;
 }
 
 /// Two to five boxes, which may overlap; corners are multiples of 1/64.
@@ -124,7 +150,7 @@ TEST(SolidDepth, OfUnionsOfBoxesIsMostlyTheLeast) {
         if (-nearest.distance <= 1.05 * *least) ++near;
     }
     EXPECT_GT(known, 100);
-    EXPECT_GE(near, 0.95 * known) << near << " of " << known;
+    EXPECT_GE(near, 0.97 * known) << near << " of " << known;
 }
 
 TEST(SolidDepth, OfConvexSolidsIsTheLeast) {
@@ -164,6 +190,27 @@ TEST(SolidDepth, OfANotchIsDiagonal) {
     const Closest<3> nearest = closest(solid(corner), solid(box));
     EXPECT_NEAR(nearest.distance, -std::sqrt(0.25 * 0.25 + 0.125 * 0.125), 1e-6);
     EXPECT_TRUE(is_parted(solid(corner), solid(box), nearest));
+}
+
+/// A block of 1 x 1 x 1 in a cup of four walls and a floor, with a play of 0.1, in a corner that it is deep in.
+/// Directions seldom meet the place where it fits; 36 of 200 such moves were as floats behind one of the three planes.
+TEST(SolidDepth, OfABlockInACupIsDiagonal) {
+    constexpr std::uint64_t seed = 20282;
+    SCOPED_TRACE(seed);
+    oracle::Random random(seed);
+    scenes::KitPiece cup = scenes::kit_box("", {0, 0, 0}, {3.1f, 3.1f, 1});
+    for (const Aabb3& wall : {Aabb3{{0, 0, 0}, {1, 3.1f, 4}}, Aabb3{{2.1f, 0, 0}, {3.1f, 3.1f, 4}},
+                              Aabb3{{0, 0, 0}, {3.1f, 1, 4}}, Aabb3{{0, 2.1f, 0}, {3.1f, 3.1f, 4}}})
+        cup = joined(cup, scenes::kit_box("", wall.min, wall.max));
+    const Mesh cup_mesh = mesh_of(cup), block_mesh = mesh_of(scenes::kit_box("", {0, 0, 0}, {1, 1, 1}));
+    for (int i = 0; i < 200; ++i) {
+        const Vec3 deep(random.uniform(0.1, 0.3), random.uniform(0.1, 0.3), random.uniform(0.1, 0.3));
+        const glm::quat turn = random.rotation<3>();
+        const auto a = at(solid(cup_mesh), Pose3{Vec3(0), turn});
+        const auto b = at(solid(block_mesh), Pose3{turn * (Vec3(1) - deep), turn});
+        EXPECT_NEAR(closest(a, b).distance, -glm::length(deep), 1e-5) << i;
+        EXPECT_NEAR(closest(b, a).distance, -glm::length(deep), 1e-5) << i;
+    }
 }
 
 TEST(SolidDepth, OfTurnedSolidsParts) {

@@ -88,6 +88,10 @@ public:
         const std::size_t own = flipped_ && corner > 0 ? 3 - corner : corner;
         return surface_.triangle(triangle)[own];
     }
+    /// The triangle beyond the edge from a corner to the next, like that of a mesh.
+    std::uint32_t neighbour(std::uint32_t triangle, std::size_t side) const {
+        return surface_.neighbour(triangle, own_side(side));
+    }
     /// One triangle of each connected component of the surface.
     std::span<const std::uint32_t> components() const { return surface_.components(); }
 

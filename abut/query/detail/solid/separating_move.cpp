@@ -2,20 +2,25 @@
 // solid against a corner of the other, or an edge against an edge. The least move ends where such a plane is nearest,
 // or, if both solids are concave there, where two or three of them meet.
 //
-// 1. Along a direction the set is left step by step: as long as some triangles cross, B moves to where they part. Where
-//    none cross, the exact test decides whether the interiors still overlap. The directions are the axes, the normals
-//    of all faces, and those of the planes through which a move left the set.
-// 2. A search, nearest first, over moves to where up to three planes meet takes care of notches.
+// 1. Along directions spread evenly the set is left step by step: as long as some triangles cross, B moves to where
+// they part. Where
+//    none cross, the exact test decides whether the interiors still overlap.
+// 2. From there the move slides over planes towards 0 until it can't become shorter: then it is the least one nearby.
+// 3. Of the moves at which a feature touches a feature, those that part the solids are least ones, too. What surely
+//    overlaps, by balls inside the solids and by pairs of triangles that cross, rules out nearly all of them.
+// 4. The nearest moves to where planes meet, beginning with those of the triangles that cross at the start, find
+// pockets
+//    that no direction leads to.
 //
 // Every move that is taken has passed the exact test.
 
 #include <abut/math/detail/next_float.hpp>
 #include <abut/math/dvec.hpp>
-#include <abut/query/closest.hpp>
 #include <abut/query/detail/solid/interior_overlap.hpp>
+#include <abut/query/detail/solid/move_cover.hpp>
 #include <abut/query/detail/solid/separating_move.hpp>
 #include <abut/query/detail/solid/slide_interval.hpp>
-#include <abut/query/raycast.hpp>
+#include <abut/query/detail/solid/touching_moves.hpp>
 
 #include <algorithm>
 #include <array>
@@ -26,221 +31,25 @@
 namespace abut::detail {
 namespace {
 
-/// A ball inside a solid.
-struct InnerBall {
-    DVec<3> center{0.0};
-    double radius = 0;
-};
-
-Vec3 middle_of(const Corners& t) {
-    return to_float((t[0] + t[1] + t[2]) / 3.0);
-}
-
-/// The ball around the middle of a chord that begins at a triangle.
-std::optional<InnerBall> inner_ball(const View<3>& shape, const PlacedSolid& solid, std::uint32_t triangle,
-                                    double extent) {
-    const Corners t = solid.corners(triangle);
-    const Vec3 inward = to_float(normalized<3>(cross(t[2] - t[0], t[1] - t[0])));
-    const Vec3 start = middle_of(t) + inward * static_cast<float>(1e-4 * extent);
-    const std::optional<Hit<3>> end = raycast(Ray3{start, inward, static_cast<float>(extent)}, shape);
-    if (!end) return std::nullopt;
-    const Vec3 center = start + inward * (0.5f * end->distance);
-    if (solid.side_of(DVec<3>(center)) != PointSide::inside) return std::nullopt;
-    const float radius = std::abs(closest(shape, Ball<3>{center, 0}).distance);
-    if (!(radius > 0)) return std::nullopt;
-    return InnerBall{DVec<3>(center), static_cast<double>(radius) * (1 - 1e-4)};
-}
-
-/// Balls inside a solid, behind triangles evenly spread over their order.
-template <std::size_t N>
-std::size_t find_inner_balls(const View<3>& shape, const PlacedSolid& solid, std::array<InnerBall, N>& balls) {
-    const double extent = length(DVec<3>(solid.box().max) - DVec<3>(solid.box().min));
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < N; ++i) {
-        const auto triangle = static_cast<std::uint32_t>(i * solid.triangle_count() / N);
-        if (const std::optional<InnerBall> ball = inner_ball(shape, solid, triangle, extent)) balls[count++] = *ball;
-    }
-    return count;
-}
-
-/// Refers to the two solids.
-class MoveCover {
-public:
-    MoveCover(const PlacedSolid& a, const PlacedSolid& b) : a_(a), b_(b) {}
-
-    /// Adds the moves that bring a ball inside B to a ball inside A. The balls are found by rays through the shapes.
-    void add_balls(const View<3>& shape_a, const View<3>& shape_b) {
-        std::array<InnerBall, max_inner> inner_a, inner_b;
-        const std::size_t count_a = find_inner_balls(surface_view(shape_a), a_, inner_a),
-                          count_b = find_inner_balls(surface_view(shape_b), b_, inner_b);
-        for (std::size_t i = 0; i < count_a; ++i)
-            for (std::size_t j = 0; j < count_b; ++j) {
-                const DVec<3> center = inner_a[i].center - inner_b[j].center;
-                const double radius = inner_a[i].radius + inner_b[j].radius;
-                if (is_in_ball(center, radius)) continue;
-                x_[ball_count_] = center.x;
-                y_[ball_count_] = center.y;
-                z_[ball_count_] = center.z;
-                radius_[ball_count_] = radius;
-                beyond_[ball_count_++] = length_squared(center) - radius * radius;
-                min_distance_ = std::max(min_distance_, radius - length(center));
-            }
-    }
-
-    /// Adds the moves at which two triangles cross.
-    void add_pair(std::uint32_t triangle_a, std::uint32_t triangle_b) {
-        const Corners a = a_.corners(triangle_a), b = b_.corners(triangle_b);
-        const DVec<3> middle_a = (a[0] + a[1] + a[2]) / 3.0, middle_b = (b[0] + b[1] + b[2]) / 3.0;
-        double radius_a = 0, radius_b = 0;
-        for (std::size_t i = 0; i < 3; ++i) {
-            radius_a = std::max(radius_a, length(a[i] - middle_a));
-            radius_b = std::max(radius_b, length(b[i] - middle_b));
-        }
-        pairs_[next_pair_] = {triangle_a, triangle_b};
-        around_pairs_[next_pair_] = {middle_a - middle_b, radius_a + radius_b};
-        next_pair_ = (next_pair_ + 1) % max_pairs;
-        pair_count_ = std::min(pair_count_ + 1, max_pairs);
-    }
-
-    /// No shorter move parts the solids.
-    double min_distance() const { return min_distance_; }
-
-    /// Whether a ball contains the moves along a direction up to the limit, which seldom changes. Quick.
-    bool has_ball_along(const DVec<3>& direction, double limit) {
-        if (limit != limit_of_caps_) {
-            limit_of_caps_ = limit;
-            cap_count_ = 0;
-            for (std::size_t i = 0; i < ball_count_; ++i) {
-                const double beyond = beyond_[i];
-                if (beyond < 0)
-                    caps_[cap_count_++] = {static_cast<std::uint32_t>(i), (limit * limit + beyond) / (2 * limit)};
-            }
-        }
-        for (std::size_t i = 0; i < cap_count_; ++i) {
-            if (!(dot(direction, center(caps_[i].ball)) > caps_[i].min_along)) continue;
-            // Neighbouring directions are in one ball.
-            std::swap(caps_[i], caps_[i / 2]);
-            return true;
-        }
-        return false;
-    }
-
-    /// Goes on along a direction as long as a set contains the move, at least by `step`, or up to the limit. Sets the
-    /// normal of the last plane.
-    void leave(const DVec<3>& direction, double step, double limit, double& distance, DVec<3>& normal) {
-        if (distance == 0) set_spans(direction);
-        for (bool goes_on = true; goes_on && distance < limit;) {
-            goes_on = false;
-            const double end = end_of_balls(distance, step);
-            if (end > distance) normal = DVec<3>(0.0);
-            distance = end;
-            for (std::size_t i = 0; i < pair_count_ && distance < limit; ++i) {
-                const Ball& around = around_pairs_[i];
-                if (length_squared(direction * distance - around.center) >= around.radius * around.radius) continue;
-                SlideInterval slide;
-                const SlideRange range{distance == 0 ? 0 : distance - step, distance + 2 * step};
-                if (!slide_interval(a_.corners(pairs_[i].a), b_.corners(pairs_[i].b), direction, range, slide))
-                    continue;
-                distance = slide.to;
-                normal = slide.exit_normal;
-                goes_on = true;
-            }
-        }
-    }
-
-    /// Whether a set contains the move.
-    bool has_ball_at(const DVec<3>& move) const {
-        const double squared = length_squared(move);
-        for (std::size_t i = 0; i < ball_count_; ++i)
-            if (squared - 2 * (x_[i] * move.x + y_[i] * move.y + z_[i] * move.z) + beyond_[i] < 0) return true;
-        return false;
-    }
-
-private:
-    /// A ball of moves, or the pair of triangles whose moves are in it.
-    struct Ball {
-        DVec<3> center{0.0};
-        double radius = 0;
-    };
-    struct TrianglePair {
-        std::uint32_t a, b;
-    };
-
-    static constexpr std::size_t max_inner = 24;  ///< balls inside of each solid
-    static constexpr std::size_t max_pairs = 256;
-
-    static constexpr std::size_t max_balls = max_inner * max_inner;
-
-    bool is_in_ball(const DVec<3>& middle, double radius) const {
-        for (std::size_t i = 0; i < ball_count_; ++i) {
-            const double between = radius_[i] - radius;
-            if (between >= 0 && length_squared(middle - center(i)) <= between * between) return true;
-        }
-        return false;
-    }
-
-    DVec<3> center(std::size_t ball) const { return {x_[ball], y_[ball], z_[ball]}; }
-    /// Sets the spans in which the balls contain moves along a direction.
-    void set_spans(const DVec<3>& direction) {
-        for (std::size_t i = 0; i < ball_count_; ++i) {
-            const double along = x_[i] * direction.x + y_[i] * direction.y + z_[i] * direction.z;
-            const double half = std::sqrt(std::max(0.0, along * along - beyond_[i]));
-            from_[i] = along - half;
-            to_[i] = along + half;
-        }
-    }
-
-    double end_of_balls(double from, double step) const {
-        for (double end = from;;) {
-            double farther = end;
-            for (std::size_t i = 0; i < ball_count_; ++i) farther = std::max(farther, from_[i] < end ? to_[i] : end);
-            if (!(farther > end + step)) return farther;
-            end = farther;
-        }
-    }
-
-    /// A ball contains 0 and `limit * d` where dot(d, center) > min_along.
-    struct Cap {
-        std::uint32_t ball = 0;
-        double min_along = 0;
-    };
-
-    const PlacedSolid &a_, &b_;
-    // Balls: the centres, the radii, and the squared distances of 0 from the centres, less the squared radii.
-    std::array<double, max_balls> x_, y_, z_, radius_, beyond_;
-    std::size_t ball_count_ = 0;
-    std::array<double, max_balls> from_, to_;  ///< the spans; empty for a ball that the line misses
-    std::array<Cap, max_balls> caps_;
-    std::size_t cap_count_ = 0;
-    double limit_of_caps_ = 0;
-    std::array<Ball, max_pairs> around_pairs_;
-    std::array<TrianglePair, max_pairs> pairs_;
-    std::size_t pair_count_ = 0, next_pair_ = 0;
-    double min_distance_ = 0;
-};
-
 double extent_of(const Aabb3& box) {
     return length(DVec<3>(box.max) - DVec<3>(box.min));
 }
 
-/// Directions that were tried, as far as they fit.
-class TriedDirections {
-public:
-    /// Returns false if the direction was added before.
-    bool add(const DVec<3>& direction) {
-        const auto same = [&](const DVec<3>& other) { return dot(direction, other) > 1 - 1e-14; };
-        const auto end = tried_.begin() + static_cast<std::ptrdiff_t>(count_);
-        if (std::any_of(tried_.begin(), end, same)) return false;
-        tried_[next_] = direction;
-        next_ = (next_ + 1) % tried_.size();
-        count_ = std::min(count_ + 1, tried_.size());
-        return true;
+/// The box and the places that it passes on a move.
+Aabb3 swept(Aabb3 box, const DVec<3>& move) {
+    for (int i = 0; i < 3; ++i) {
+        if (move[i] < 0) box.min[i] = next_down(static_cast<float>(static_cast<double>(box.min[i]) + move[i]));
+        if (move[i] > 0) box.max[i] = next_up(static_cast<float>(static_cast<double>(box.max[i]) + move[i]));
     }
+    return box;
+}
 
-private:
-    std::array<DVec<3>, 64> tried_;
-    std::size_t count_ = 0, next_ = 0;
-};
+/// Whether the front of a triangle clearly faces a direction.
+bool faces(const Corners& t, const DVec<3>& direction) {
+    const DVec<3> normal = cross(t[1] - t[0], t[2] - t[0]);
+    const double along = dot(normal, direction);
+    return along > 0 && along * along > 1e-12 * length_squared(normal);
+}
 
 class MoveSearch : LeastMoveSearch {
 public:
@@ -252,49 +61,73 @@ public:
         step_ = 1e-9 * smaller + 1e-14 * farthest;
         float_step_ = 0x1p-23 * farthest;
         is_fine_ = a_.triangle_count() + b_.triangle_count() > min_fine_triangles;
-        if (!is_fine_) return;
-        cover_.add_balls(shape_a, shape_b);
-        max_meets_ = max_meets_if_fine;
+        if (is_fine_) cover_.add_balls(shape_a, shape_b);
     }
 
     SeparatingMove find() {
         leave_box(a_.box(), b_.box());
+        // First, as nothing slid: of moves that are equally long up to rounding the one along an axis is reported.
         for (int i = 0; i < 3; ++i)
-            for (const double sign : {1.0, -1.0}) try_direction(axis<3>(i, sign));
-        each_face_direction([&](const DVec<3>& direction) {
-            try_direction(direction);
-            return !is_least();
+            for (const double sign : {1.0, -1.0}) {
+                const DVec<3> direction = axis<3>(i, sign);
+                const Exit exit = exit_along(direction, limit());
+                if (exit.distance < limit()) take(direction, exit.distance);
+            }
+        each_spread_direction([&](const DVec<3>& direction, double longer) {
+            if (is_done()) return;
+            const double limit = best_distance_ * longer;
+            const Exit exit = exit_along(direction, limit);
+            if (exit.distance < limit) descend(direction * exit.distance, exit.normal);
         });
-        if (!is_least()) search_meets(max_meets_, step_);
+        each_touching_move(a_, b_,
+                           {[&] { return is_done() ? 0 : best_distance_; },
+                            [&](const DVec<3>& first, const DVec<3>& last) {
+                                return cover_.end_of_balls_between(first, last, best_distance_);
+                            },
+                            [&](const DVec<3>& direction, double distance) { try_move(direction, distance); }});
+        if (!is_done()) search_meets(max_meets, step_);
         return best_;
     }
 
 private:
-    /// Visits the normals of the faces, and the opposite directions; false stops.
+    struct Crossing {
+        bool found = false;
+        double from = 0, to = 0;
+        DVec<3> normal{0.0};
+    };
+    /// Where triangles begin to cross, and the normal of the plane, in front of which they don't.
+    struct Entry {
+        double distance = 0;
+        DVec<3> normal{0.0};
+    };
+
+    /// Visits the directions to 98 points spread over the surface of a cube, each with the length, relative to the best
+    /// move, up to which a way out along it is followed. It may still become shorter than the best.
     template <class Visit>
-    void each_face_direction(const Visit& visit) {
-        for (const bool of_a : {true, false}) {
-            const PlacedSolid& solid = of_a ? a_ : b_;
-            for (std::uint32_t i = 0; i < solid.triangle_count(); ++i) {
-                const Corners t = solid.corners(i);
-                const DVec<3> normal = cross(t[1] - t[0], t[2] - t[0]);
-                const double size = length(normal);
-                if (!(size > 0)) continue;
-                // B leaves A by the front of A's faces; A leaves B by the front of B's.
-                const DVec<3> direction = normal / (of_a ? size : -size);
-                if (!visit(direction) || !visit(-direction)) return;
+    static void each_spread_direction(const Visit& visit) {
+        for (const int squared : {4, 8, 12, 5, 6, 9})
+            for (int i = 0; i < 125; ++i) {
+                const DVec<3> point(i % 5 - 2, i / 5 % 5 - 2, i / 25 - 2);
+                if (largest(point) == 2 && length_squared(point) == squared)
+                    visit(normalized<3>(point), squared % 4 == 0 ? 1.5 : 1);
             }
-        }
     }
 
-    bool is_least() const { return best_distance_ <= cover_.min_distance() * (1 + 1e-5); }
+    /// Whether the best move is the least, or no more may be tested.
+    bool is_done() const { return tests_ >= max_tests || best_distance_ <= cover_.min_distance() * (1 + 1e-5); }
+
+    void try_move(const DVec<3>& direction, double distance) {
+        if (cover_.has_ball_at(direction * distance) || cover_.has_pair_at(direction, distance, step_)) return;
+        const Crossing crossing = crossing_at(direction, distance, best_distance_, false);
+        if (!crossing.found || crossing.from >= distance - step_) take(direction, distance);
+    }
 
     bool parts(const DVec<3>& move) const override {
         return !cover_.has_ball_at(move) && !interiors_overlap(a_, b_.moved(move), move);
     }
 
     bool may_improve(const DVec<3>& direction) override {
-        return !cover_.has_ball_along(direction, limit()) && tried_.add(direction);
+        return cover_.end_of_balls_between(direction, direction, limit()) < limit();
     }
 
     Exit exit_along(const DVec<3>& direction, double limit) override {
@@ -303,14 +136,16 @@ private:
         for (int i = 0; i < 256; ++i) {
             cover_.leave(direction, step_, limit, distance, exit.normal);
             if (distance >= limit) break;
-            const Crossing crossing = crossing_at(direction, distance, limit);
+            const Crossing crossing = crossing_at(direction, distance, limit, is_fine_);
             if (crossing.found && crossing.from < distance - step_) {
                 distance = crossing.to;
                 exit.normal = crossing.normal;
                 continue;
             }
-            if (parts(direction * distance)) {
-                exit.distance = distance;
+            // A step farther on nothing is flush, which takes long to decide; but there may be no room.
+            const double parted = crossing.found ? distance : distance + 2 * step_;
+            if (parts(direction * parted)) {
+                exit.distance = parted;
                 return exit;
             }
             if (crossing.found) {
@@ -318,26 +153,79 @@ private:
                 exit.normal = crossing.normal;
                 continue;
             }
-            distance += step_;
-            if (parts(direction * distance)) {
-                exit.distance = distance;
-                return exit;
-            }
-            distance = next_crossing(direction, distance, limit);
+            distance = parted;
+            // One solid is inside the other, or they are flush.
+            const Entry entry = first_entry(b_.moved(direction * distance), direction, limit - distance, false);
+            distance += std::max(entry.distance, step_);
         }
         return exit;
     }
 
-    struct Crossing {
-        bool found = false;
-        double from = 0, to = 0;
-        DVec<3> normal{0.0};
-    };
+    /// Shortens a move that parts the solids, in front of a plane unless the normal is 0, and takes it.
+    void descend(DVec<3> move, const DVec<3>& normal) {
+        MeetOfPlanes planes;
+        const auto stay_in_front = [&](const DVec<3>& of) {
+            const std::optional<MeetOfPlanes> next = with_plane(planes, {of, dot(of, move)});
+            if (next) planes = *next;
+            return next.has_value();
+        };
+        if (normal != DVec<3>(0.0)) stay_in_front(normal);
+        for (int i = 0; i < max_slides; ++i) {
+            const DVec<3> way = planes.move - move;
+            const double far = length(way);
+            if (!(far > 4 * step_)) break;
+            const DVec<3> direction = way / far;
+            const Entry entry = first_entry_from(move, direction, far);
+            const double distance = std::max(entry.distance - 2 * step_, 0.0);
+            move += direction * distance;
+            if (distance > 8 * step_) planes = {};
+            if (entry.distance < far && !stay_in_front(entry.normal)) break;
+        }
+        // As floats the move may be behind one of the planes.
+        for (const double farther : {0.0, 1.0, 4.0}) {
+            if (farther > 0) move = farther_by(planes, farther * 0x1p-23 * length(move)).move;
+            const double distance = length(move);
+            if (!(distance > 0 && distance < limit()) || take(move / distance, distance)) return;
+        }
+    }
 
-    /// Of some triangles that cross at a distance along a direction, or a step farther on, those that part last. Of
-    /// fine solids all are tested, and only those that part last are added to the cover: slivers about one corner cross
-    /// in thousands of pairs, most of which part at once.
-    Crossing crossing_at(const DVec<3>& direction, double distance, double limit) {
+    /// Where triangles begin to cross on the way from a move that parts the solids.
+    Entry first_entry_from(const DVec<3>& move, const DVec<3>& direction, double reach) const {
+        const PlacedSolid moved = b_.moved(move);
+        // Near first, as most ways end soon.
+        for (double span = reach / 64; span < reach; span *= 8) {
+            const Entry entry = first_entry(moved, direction, span, true);
+            if (entry.distance < span) return entry;
+        }
+        return first_entry(moved, direction, reach, true);
+    }
+
+    /// Where triangles begin to cross as B moves on; as far as `reach` if they don't.
+    Entry first_entry(const PlacedSolid& moved, const DVec<3>& direction, double reach, bool from_outside) const {
+        Entry entry{reach, DVec<3>(0.0)};
+        a_.each_triangle(swept(moved.box(), direction * reach), [&](std::uint32_t index_a) {
+            const Corners a = a_.corners(index_a);
+            if (from_outside && faces(a, direction)) return true;
+            moved.each_triangle(swept(box_of(a), direction * -entry.distance), [&](std::uint32_t index_b) {
+                if (++tests_ >= max_tests) return false;
+                const Corners b = moved.corners(index_b);
+                if (from_outside && faces(b, -direction)) return true;
+                // Where they begin to cross is where they part on the way back.
+                SlideInterval slide;
+                if (slide_interval(a, b, -direction, {-step_, -entry.distance}, slide) && slide.to < step_)
+                    entry = {std::max(-slide.to, 0.0), slide.exit_normal};
+                return true;
+            });
+            return tests_ < max_tests;
+        });
+        return entry;
+    }
+
+    /// Of some triangles that cross at a distance along a direction, or a step farther on, those that part last. If
+    /// thorough, all are tested, and only those that part last are added to the cover: slivers about one corner cross
+    /// in thousands of pairs, most of which part at once. All that is known after too many tests is that they may cross
+    /// as far as the limit.
+    Crossing crossing_at(const DVec<3>& direction, double distance, double limit, bool thorough) {
         Crossing result;
         int crossing_count = 0;
         std::optional<std::array<std::uint32_t, 2>> last;
@@ -345,46 +233,24 @@ private:
         each_triangle_pair(
             a_, b_.moved(direction * distance), static_cast<float>(2 * step_),
             [&](std::uint32_t index_a, const Corners& a, std::uint32_t index_b, const Corners& b) {
+                if (++tests_ >= max_tests) {
+                    result = {true, 0, limit, DVec<3>(0.0)};
+                    return false;
+                }
                 SlideInterval slide;
                 if (!slide_interval(a, b, direction, {step_, 2 * step_}, slide)) return true;
-                if (slide.from < -step_ && !is_fine_) cover_.add_pair(index_a, index_b);
-                if (slide.from < -step_ && is_fine_ && slide.to > last_to) {
+                if (slide.from < -step_ && !thorough) cover_.add_pair(index_a, index_b);
+                if (slide.from < -step_ && thorough && slide.to > last_to) {
                     last = {index_a, index_b};
                     last_to = slide.to;
                 }
                 if (!result.found || distance + slide.to > result.to)
                     result = {true, distance + slide.from, distance + slide.to, slide.exit_normal};
-                return result.to < limit && (is_fine_ || ++crossing_count < max_crossings);
+                return result.to < limit && (thorough || ++crossing_count < max_crossings);
             },
             direction);
         if (last) cover_.add_pair((*last)[0], (*last)[1]);
         return result;
-    }
-
-    /// The next distance at which triangles begin to cross; the limit if none do. One solid is inside the other, or
-    /// they are flush.
-    double next_crossing(const DVec<3>& direction, double distance, double limit) const {
-        double next = limit;
-        const DVec<3> move = direction * (limit - distance);
-        const PlacedSolid moved = b_.moved(direction * distance);
-        const auto swept = [](Aabb3 box, const DVec<3>& by) {
-            for (int i = 0; i < 3; ++i) {
-                if (by[i] < 0) box.min[i] = next_down(static_cast<float>(static_cast<double>(box.min[i]) + by[i]));
-                if (by[i] > 0) box.max[i] = next_up(static_cast<float>(static_cast<double>(box.max[i]) + by[i]));
-            }
-            return box;
-        };
-        a_.each_triangle(swept(moved.box(), move), [&](std::uint32_t index_a) {
-            const Corners a = a_.corners(index_a);
-            moved.each_triangle(swept(box_of(a), -move), [&](std::uint32_t index_b) {
-                SlideInterval slide;
-                if (slide_interval(a, moved.corners(index_b), direction, {limit - distance, step_}, slide))
-                    next = std::min(next, distance + std::max(slide.from, step_));
-                return true;
-            });
-            return true;
-        });
-        return next;
     }
 
     void collect_planes(const DVec<3>& move, NearestPlanes& planes) const override {
@@ -411,18 +277,18 @@ private:
             move);
     }
 
-    static constexpr int max_crossings = 4;
-
-    /// Coarser solids have so few directions that balls don't pay, and larger faces, whose planes meet in notches.
+    /// Beyond this number of tests of two triangles the best move so far is the answer. Solids of 10,000 triangles that
+    /// aren't slivers take fewer.
+    static constexpr std::uint32_t max_tests = 1u << 23u;
+    static constexpr int max_slides = 64, max_crossings = 4, max_meets = 8;
+    /// Coarser solids have so few features that balls don't pay.
     static constexpr std::uint32_t min_fine_triangles = 256;
-    static constexpr int max_meets_if_fine = 4;
 
     PlacedSolid a_, b_;
     MoveCover cover_;
     double step_ = 0;       ///< a distance that doesn't count
     bool is_fine_ = false;  ///< the two have many triangles
-    TriedDirections tried_;
-    int max_meets_ = 512;  ///< how many meets of planes are tried
+    mutable std::uint32_t tests_ = 0;
 };
 
 }  // namespace
