@@ -103,7 +103,7 @@ TEST_F(BlowUps, PileOfDifferentObjectsToo) {
 }
 
 // 719,400 pairs of objects around a point that none of them contains are reported one by one, but not more than 4
-// million.
+// million. Of 20,000 lines, each 200 of which are equal, the search for duplicates listed all pairs, which took 5 GB.
 TEST_F(BlowUps, MorePairsThanTheLimitAreRefused) {
     std::string drawing = "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 1000 1000'>";
     for (int i = 0; i < size(3000, 20'000); ++i)

@@ -89,25 +89,32 @@ std::optional<float> surface_distance(const std::vector<Vec<D>>& a, const std::v
 
 template <int D>
 void find_copies(const std::vector<ViewedObject<D>>& objects, float tolerance, std::vector<CopyGroup<D>>& out) {
-    std::vector<Aabb<D>> boxes;
-    for (const ViewedObject<D>& object : objects) boxes.push_back(object.box);
+    // Copies have the same low corner. Few others do, while all of a level may overlap.
+    std::vector<Aabb<D>> corners;
+    for (const ViewedObject<D>& object : objects) corners.push_back({object.box.min, object.box.min});
     Bvh<D> tree;
-    tree.build(boxes);
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
-    tree.sorted_pairs(pairs);
+    tree.build(corners);
     detail::UnionFind groups(objects.size());
     std::map<std::size_t, float> max_distances;  // by the second object of a pair
-    for (const auto& [i, j] : pairs) {
-        const ViewedObject<D>&a = objects[i], &b = objects[j];
-        const float allowed = tolerance * std::min(a.radius, b.radius);
-        // Boxes of rotated shapes may be slightly too large.
-        if (!are_near(a.box, b.box, 2 * allowed) || groups.find(i) == groups.find(j)) continue;
-        const std::optional<float> distance = a.convex && b.convex
-                                                  ? surface_distance(a.surface.points, b.surface.points, allowed)
-                                                  : surface_distance(a.surface, b.surface, allowed);
-        if (!distance) continue;
-        groups.unite(i, j);
-        max_distances[j] = std::max(max_distances[j], *distance);
+    std::vector<std::uint32_t> near;
+    for (std::uint32_t i = 0; i < objects.size(); ++i) {
+        near.clear();
+        tree.each_overlapping(grown(corners[i], 2 * tolerance * objects[i].radius), [&](std::uint32_t j) {
+            if (j > i) near.push_back(j);
+        });
+        std::sort(near.begin(), near.end());
+        for (const std::uint32_t j : near) {
+            const ViewedObject<D>&a = objects[i], &b = objects[j];
+            const float allowed = tolerance * std::min(a.radius, b.radius);
+            // Boxes of rotated shapes may be slightly too large.
+            if (!are_near(a.box, b.box, 2 * allowed) || groups.find(i) == groups.find(j)) continue;
+            const std::optional<float> distance = a.convex && b.convex
+                                                      ? surface_distance(a.surface.points, b.surface.points, allowed)
+                                                      : surface_distance(a.surface, b.surface, allowed);
+            if (!distance) continue;
+            groups.unite(i, j);
+            max_distances[j] = std::max(max_distances[j], *distance);
+        }
     }
     for (std::vector<std::size_t>& members : groups.all(2)) {
         CopyGroup<D> group;
