@@ -39,7 +39,8 @@ public:
 private:
     static constexpr std::uint32_t done = 0, pending = 1, running = 2;
 
-    /// Not a byte: RISC-V compares and exchanges bytes by calls into another library, which a program would have to link.
+    /// Not a byte: RISC-V compares and exchanges bytes by calls into another library, which a program would have to
+    /// link.
     std::atomic<std::uint32_t> state_ = done;
 };
 

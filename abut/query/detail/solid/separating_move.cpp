@@ -71,7 +71,9 @@ public:
             for (const double sign : {1.0, -1.0}) {
                 const DVec<3> direction = axis<3>(i, sign);
                 const Exit exit = exit_along(direction, limit());
-                if (exit.distance < limit()) take(direction, exit.distance);
+                // With the step that an exit may have more, the floats may be other ones.
+                if (exit.distance < limit() && !take(direction, exit.distance - 2 * step_))
+                    take(direction, exit.distance);
             }
         each_spread_direction([&](const DVec<3>& direction, double longer) {
             if (is_done()) return;
