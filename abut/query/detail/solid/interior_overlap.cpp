@@ -8,10 +8,6 @@ namespace {
 
 using Signs = std::array<int, 3>;
 
-std::size_t next_corner(std::size_t i) {
-    return i == 2 ? 0 : i + 1;
-}
-
 /// The sides of a triangle's plane on which the corners of another lie.
 Signs sides_of(const Corners& plane, const Corners& corners) {
     Signs result;

@@ -14,6 +14,9 @@ namespace abut::detail {
 
 /// The corners of a placed triangle.
 using Corners = std::array<DVec<3>, 3>;
+inline std::size_t next_corner(std::size_t i) {
+    return i == 2 ? 0 : i + 1;
+}
 
 /// A half-plane bounded by the axis of a fan, by a point on it, and whether the solid lies on either side of it.
 struct FanBlade {

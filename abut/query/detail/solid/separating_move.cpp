@@ -104,7 +104,7 @@ private:
     };
 
     /// Visits the directions to 98 points spread over the surface of a cube, each with the length, relative to the best
-    /// move, up to which a way out along it is followed. It may still become shorter than the best.
+    /// move, up to which an exit along it counts. It may still become shorter than the best.
     template <class Visit>
     static void each_spread_direction(const Visit& visit) {
         for (const int squared : {4, 8, 12, 5, 6, 9})

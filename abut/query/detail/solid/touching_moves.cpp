@@ -14,10 +14,6 @@ namespace {
 /// A sine that may be rounding, and how far beyond its ends, relative to it, an edge may be met.
 constexpr double parallel_sine = 1e-6, beyond_end = 1e-9;
 
-std::size_t next_corner(std::size_t i) {
-    return i == 2 ? 0 : i + 1;
-}
-
 /// The box around a box after each of some moves.
 Aabb3 moved_by(const Aabb3& box, std::initializer_list<DVec<3>> moves) {
     Aabb3 result = Aabb3::empty();
