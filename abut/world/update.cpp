@@ -87,10 +87,9 @@ void World<D>::find_near(Executor* executor) {
             const detail::Lock lock(mutex);
             near_.insert(near_.end(), found.begin(), found.begin() + static_cast<std::ptrdiff_t>(count));
             if (!filters_edges_) continue;
-            for (const auto& [a, b] : std::span(found).first(count)) {
-                memory_->neighbours.count(a);
-                memory_->neighbours.count(b);
-            }
+            for (const auto& [a, b] : std::span(found).first(count))
+                for (const std::uint32_t slot : {a, b})
+                    if (!items_[slot].fixed) memory_->neighbours.count(slot);
         }
         return true;
     };
@@ -124,11 +123,13 @@ void World<D>::list_neighbours() {
             hwy::Prefetch(&items_[slot].place);
             hwy::Prefetch(&items_[slot].type);
         }
+        const detail::SlotPair& next = near_[std::min(i + ahead / 2, near_.size() - 1)];
+        for (const std::uint32_t slot : {next.a, next.b}) hwy::Prefetch(&box(slot));
         const auto& [a, b] = near_[i];
         const bool for_a = neighbours.may_have_several(a), for_b = neighbours.may_have_several(b);
         if ((!for_a && !for_b) || !are_neighbours(a, b)) continue;
-        if (for_a && !items_[a].fixed) neighbours.add(a, {b, box(b)});
-        if (for_b && !items_[b].fixed) neighbours.add(b, {a, box(a)});
+        if (for_a) neighbours.add(a, {b, box(b)});
+        if (for_b) neighbours.add(b, {a, box(a)});
     }
 }
 

@@ -205,9 +205,12 @@ void World<D>::free_slot(std::uint32_t slot) {
 template <int D>
 void World<D>::update_box(std::uint32_t slot) {
     Item& item = items_[slot];
-    const Aabb<D> box = bounds_in_broad_phase(slot);
-    ABUT_ASSERT(!is_empty(box) || is_finite(placed(slot)));
-    boxes_of(item).set(item.place, box);
+    // Returned by one call, the box stays in registers.
+    if (item.enabled && !positions_.are_used())
+        boxes_of(item).set(item.place, item.stored.bounds_for_queries(item.pose));
+    else
+        boxes_of(item).set(item.place, bounds_in_broad_phase(slot));
+    ABUT_ASSERT(!is_empty(box(slot)) || is_finite(placed(slot)));
     mark_pending(slot);
 }
 

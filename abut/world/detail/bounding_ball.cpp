@@ -6,8 +6,8 @@
 namespace abut::detail {
 namespace {
 
-/// Relative margins of the radius and of the position, many times the rounding errors in double.
-constexpr double radius_margin = 1e-4, position_margin = 1e-12;
+/// The relative margin of the radius, many times the rounding errors in double.
+constexpr double radius_margin = 1e-4;
 /// 16 ulp of float: the allowed disagreement between a user's bounds, supports and parts.
 constexpr double user_margin = 2e-6;
 
@@ -103,23 +103,9 @@ SmallBall<D> SmallBall<D>::around(const BoundingBall<D>& ball) {
     return result;
 }
 
-template <int D>
-BoundingBall<D> moved(const BoundingBall<D>& ball, const Affine<D>& pose) {
-    const double reach = largest(ball.center) + largest(pose.offset);
-    return {pose.point(ball.center), ball.radius + 2 * reach * position_margin};
-}
-
-template <int D>
-bool apart(const BoundingBall<D>& a, const BoundingBall<D>& b) {
-    const double reach = a.radius + b.radius;
-    return length_squared(b.center - a.center) > reach * reach;
-}
-
-#define ABUT_INSTANTIATE(D)                                                   \
-    template BoundingBall<D> bounding_ball(const View<D>&);                   \
-    template struct SmallBall<D>;                                             \
-    template BoundingBall<D> moved(const BoundingBall<D>&, const Affine<D>&); \
-    template bool apart(const BoundingBall<D>&, const BoundingBall<D>&);
+#define ABUT_INSTANTIATE(D)                                 \
+    template BoundingBall<D> bounding_ball(const View<D>&); \
+    template struct SmallBall<D>;
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

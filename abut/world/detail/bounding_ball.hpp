@@ -22,12 +22,21 @@ struct SmallBall {
     BoundingBall<D> ball() const { return {DVec<D>(center), static_cast<double>(radius)}; }
 };
 
+/// The margin of a ball for its position, many times the rounding errors in double.
+inline constexpr double position_margin = 1e-12;
+
 /// The ball of a shape that `pose` translates and rotates, from the ball of the shape in its own frame.
 template <int D>
-BoundingBall<D> moved(const BoundingBall<D>& ball, const Affine<D>& pose);
+BoundingBall<D> moved(const BoundingBall<D>& ball, const Affine<D>& pose) {
+    const double reach = largest(ball.center) + largest(pose.offset);
+    return {pose.point(ball.center), ball.radius + 2 * reach * position_margin};
+}
 
 /// Whether the balls are apart. The shapes in them are then apart by more than the error of any query.
 template <int D>
-bool apart(const BoundingBall<D>& a, const BoundingBall<D>& b);
+bool apart(const BoundingBall<D>& a, const BoundingBall<D>& b) {
+    const double reach = a.radius + b.radius;
+    return length_squared(b.center - a.center) > reach * reach;
+}
 
 }  // namespace abut::detail

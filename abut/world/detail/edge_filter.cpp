@@ -93,19 +93,27 @@ bool World<D>::PairTests::is_center_covered(std::uint32_t slot) {
 /// may touch another one beside the contact.
 template <int D>
 bool World<D>::PairTests::needs_filter(std::uint32_t slot) {
-    return neighbours_.of(slot).size() >= 2 && !is_center_covered(slot);
+    return may_need_filter(slot) && !is_center_covered(slot);
 }
 
-/// Whether the item in `slot` needs the surface of its neighbours for a contact with another item: there is one near
-/// each of the deepest points. `side` is 1 if the item is A, and -1 if it is B.
+/// Whether the item in `slot` may need the surface of its neighbours for a contact: another one may be near it, and as
+/// far as is known its centre is not covered.
 template <int D>
-bool World<D>::PairTests::needs_filter(std::uint32_t slot, std::uint32_t other, const Contact<D>& contact, float side) {
-    const std::span neighbours = neighbours_.of(slot);
-    if (neighbours.size() < 2 ||
-        neighbours_.center(slot).load(std::memory_order_relaxed) == Neighbourhoods<D>::Center::covered)
-        return false;
-    const float s = static_cast<float>(surface_probe_scale) *
-                    std::min(items_[slot].local_ball.radius, items_[other].local_ball.radius);
+bool World<D>::PairTests::may_need_filter(std::uint32_t slot) const {
+    return neighbours_.of(slot).size() >= 2 &&
+           neighbours_.center(slot).load(std::memory_order_relaxed) != Neighbourhoods<D>::Center::covered;
+}
+
+/// Finds which of the two items of a contact need the surface of their neighbours: there is one near each of the
+/// deepest points.
+template <int D>
+void World<D>::PairTests::find_sides_to_filter(detail::UnfilteredContact<D>& unfiltered) {
+    const WorldContact<D>& found = results_.found.contacts[unfiltered.found];
+    const Contact<D>& contact = found.contact;
+    const std::uint32_t a = found.a.index - 1, b = found.b.index - 1;
+    set_frame(a);
+    const float s =
+        static_cast<float>(surface_probe_scale) * std::min(items_[a].local_ball.radius, items_[b].local_ball.radius);
     // All points are within the smaller item, and so near the first one.
     constexpr float rounding = 0x1p-21f;
     float reach = probe_reach * s + rounding * std::abs(contact.depth);
@@ -115,18 +123,24 @@ bool World<D>::PairTests::needs_filter(std::uint32_t slot, std::uint32_t other, 
         to_origin = to_float(frame_ - world_.positions_.origin());
         for (int i = 0; i < D; ++i) reach += rounding * std::abs(to_origin[i]);
     }
-    const Vec<D> to_surface = contact.normal * (-0.5f * side);
     const float min_depth = contact.depth - static_cast<float>(0.5 * deepest_tolerance) * s;
-    for (const ContactPoint<D>& point : contact.points) {
-        if (point.depth < min_depth) continue;
-        const Vec<D> on_surface = point.position + to_origin + to_surface * point.depth;
-        const typename Neighbour<D>::Query near({on_surface - reach, on_surface + reach});
-        bool is_alone = true;
-        for (const Neighbour<D>& neighbour : neighbours)
-            is_alone &= !near.overlaps(neighbour) | (neighbour.slot == other);
-        if (is_alone) return false;
-    }
-    return !is_center_covered(slot);
+    // `to_surface` leads from a point of depth 1 to the surface of the other item.
+    const auto needs_filter = [&](std::uint32_t slot, std::uint32_t other, const Vec<D>& to_surface) {
+        if (!may_need_filter(slot)) return false;
+        const std::span neighbours = neighbours_.of(slot);
+        for (const ContactPoint<D>& point : contact.points) {
+            if (point.depth < min_depth) continue;
+            const Vec<D> on_surface = point.position + to_origin + to_surface * point.depth;
+            const typename Neighbour<D>::Query near({on_surface - reach, on_surface + reach});
+            bool is_alone = true;
+            for (const Neighbour<D>& neighbour : neighbours)
+                is_alone &= !near.overlaps(neighbour) | (neighbour.slot == other);
+            if (is_alone) return false;
+        }
+        return !is_center_covered(slot);
+    };
+    unfiltered.for_a = needs_filter(a, b, contact.normal * -0.5f);
+    unfiltered.for_b = needs_filter(b, a, contact.normal * 0.5f);
 }
 
 /// Calls use(neighbours) with what the items in two slots touch beside each other.
@@ -155,7 +169,8 @@ bool World<D>::PairTests::find_contact(const IdPair& pair) {
     const auto [placed_a, placed_b] = placed_views(pair);
     Contact<D>& found = results_.found.add(pair, {}).contact;
     // Balls have no edges to catch on.
-    const bool is_unfiltered = is_filtered && (type_a != ShapeType::ball || type_b != ShapeType::ball);
+    const bool is_unfiltered = is_filtered && (type_a != ShapeType::ball || type_b != ShapeType::ball) &&
+                               (may_need_filter(a) || may_need_filter(b));
     DeepestParts<D> own;
     if (has_parts)
         found = abut::contact(placed_a, placed_b);
@@ -197,13 +212,7 @@ bool World<D>::PairTests::find_surface_contacts(const IdPair& pair) {
 template <int D>
 void World<D>::PairTests::filter_contacts() {
     const auto last = std::span(memory_.unfiltered).first(std::exchange(memory_.unfiltered_count, 0));
-    for (auto& unfiltered : last) {
-        const WorldContact<D>& found = results_.found.contacts[unfiltered.found];
-        const std::uint32_t a = found.a.index - 1, b = found.b.index - 1;
-        set_frame(a);
-        unfiltered.for_a = needs_filter(a, b, found.contact, 1);
-        unfiltered.for_b = needs_filter(b, a, found.contact, -1);
-    }
+    for (auto& unfiltered : last) find_sides_to_filter(unfiltered);
     for (const auto& unfiltered : last) {
         if (!unfiltered.for_a && !unfiltered.for_b) continue;
         const WorldContact<D>& found = results_.found.contacts[unfiltered.found];

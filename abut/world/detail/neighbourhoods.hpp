@@ -86,6 +86,9 @@ public:
         return std::span(neighbours_).subspan(begin, end - begin);
     }
 
+    /// Where `of` reads first, to fetch it from memory early.
+    const void* data(std::uint32_t slot) const { return &of_slot_[slot]; }
+
     // What is known of an item. Several threads may find out the same.
 
     /// The neighbour that ended the last search for the point nearest to a contact, likely the next; none at first.

@@ -20,7 +20,10 @@ void World<D>::PairTests::run(std::size_t begin, std::size_t end) {
             hwy::Prefetch(reinterpret_cast<const char*>(&items_[slot]) + cache_line);
         }
         const detail::SlotPair& next = world_.near_[std::min(i + ahead / 2, end - 1)];
-        for (const std::uint32_t slot : {next.a, next.b}) hwy::Prefetch(items_[slot].stored.data());
+        for (const std::uint32_t slot : {next.a, next.b}) {
+            hwy::Prefetch(items_[slot].stored.data());
+            if (world_.filters_edges_) hwy::Prefetch(neighbours_.data(slot));
+        }
         test_pair(world_.near_[i]);
     }
     filter_contacts();

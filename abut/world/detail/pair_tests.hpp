@@ -31,8 +31,9 @@ private:
     bool find_contact(const IdPair& pair);
     bool find_surface_contacts(const IdPair& pair);
     void filter_contacts();
+    bool may_need_filter(std::uint32_t slot) const;
     bool needs_filter(std::uint32_t slot);
-    bool needs_filter(std::uint32_t slot, std::uint32_t other, const Contact<D>& contact, float side);
+    void find_sides_to_filter(detail::UnfilteredContact<D>& unfiltered);
     bool is_center_covered(std::uint32_t slot);
     void each_closest_point_beside(std::uint32_t slot, std::uint32_t other, const detail::DVec<D>& point, double within,
                                    detail::ClosestPointVisitor<D> visit);

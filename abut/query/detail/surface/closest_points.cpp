@@ -43,21 +43,23 @@ template <int D>
 bool find_closest_point_on_box(const Convex<D>& box, const DVec<D>& point, double within, ClosestPoint<D>& closest) {
     const double scale = box.scale, reach = within + box.radius;
     const DVec<D> scaled = box.place.transposed(point - box.place.offset), half(box.own[0]);
-    for (int i = 0; i < D; ++i)
-        if (std::abs(scaled[i]) > (half[i] * scale + reach) * scale) return false;
-    const DVec<D> local = scaled / (scale * scale);
-    DVec<D> on_box = local;
+    bool is_far = false;
+    for (int i = 0; i < D; ++i) is_far |= std::abs(scaled[i]) > (half[i] * scale + reach) * scale;
+    if (is_far) return false;
+    const DVec<D> local = scale == 1 ? scaled : scaled / (scale * scale);
+    DVec<D> on_box, gap;
     double inner_gap = -std::numeric_limits<double>::infinity();
-    int axis = 0;
+    // Without a branch: most are as likely as not.
     for (int i = 0; i < D; ++i) {
-        const double gap = std::abs(local[i]) - half[i];
-        if (gap > 0) on_box[i] = std::copysign(half[i], local[i]);
-        if (gap > inner_gap) {
-            inner_gap = gap;
-            axis = i;
-        }
+        on_box[i] = std::min(std::max(local[i], -half[i]), half[i]);
+        gap[i] = std::abs(local[i]) - half[i];
+        inner_gap = std::max(inner_gap, gap[i]);
     }
-    if (inner_gap <= 0) on_box[axis] = std::copysign(half[axis], local[axis]);
+    int axis = 0;
+    if (inner_gap <= 0) {
+        while (gap[axis] < inner_gap) ++axis;
+        on_box[axis] = std::copysign(half[axis], local[axis]);
+    }
     const DVec<D> on_core = box.place.point(on_box);
     closest.distance = inner_gap > 0 ? length(point - on_core) : inner_gap * scale;
     closest.distance -= box.radius;
