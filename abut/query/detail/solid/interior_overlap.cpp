@@ -161,6 +161,13 @@ bool overlap_at(const PlacedSolid& a, std::uint32_t index_a, const Corners& corn
 
 bool each_triangle_pair(const PlacedSolid& a, const PlacedSolid& b, float reach, TrianglePairVisitor visit,
                         const DVec<3>& direction) {
+    if (a.has_tree() && !b.has_tree())
+        return each_triangle_pair(
+            b, a, reach,
+            [&](std::uint32_t index_b, const Corners& corners_b, std::uint32_t index_a, const Corners& corners_a) {
+                return visit(index_a, corners_a, index_b, corners_b);
+            },
+            -direction);
     // Above this number of points it costs more than it saves.
     constexpr std::uint32_t max_points = 4096;
     const bool has_direction = direction != DVec<3>(0.0) && b.point_count() <= max_points;

@@ -98,6 +98,8 @@ public:
     /// One triangle of each connected component of the surface.
     std::span<const std::uint32_t> components() const { return surface_.components(); }
 
+    /// Whether `each_triangle` goes down a tree. Otherwise it tests all triangles.
+    bool has_tree() const { return surface_.has_tree(); }
     /// Visits at least the triangles whose boxes overlap the box; false stops.
     void each_triangle(const Aabb3& box, FunctionRef<bool(std::uint32_t triangle)> visit) const;
 

@@ -3,14 +3,13 @@
 // or, if both solids are concave there, where two or three of them meet.
 //
 // 1. Along directions spread evenly the set is left step by step: as long as some triangles cross, B moves to where
-// they part. Where
-//    none cross, the exact test decides whether the interiors still overlap.
+//    they part. Where none cross, the exact test decides whether the interiors still overlap.
 // 2. From there the move slides over planes towards 0 until it can't become shorter: then it is the least one nearby.
 // 3. Of the moves at which a feature touches a feature, those that part the solids are least ones, too. What surely
 //    overlaps, by balls inside the solids and by pairs of triangles that cross, rules out nearly all of them.
 // 4. The nearest moves to where planes meet, beginning with those of the triangles that cross at the start, find
-// pockets
-//    that no direction leads to.
+//    pockets that no direction leads to.
+// 5. Of coarse solids no move along the normal of a face is shorter.
 //
 // Every move that is taken has passed the exact test.
 
@@ -60,7 +59,7 @@ public:
             farthest = std::max({farthest, largest(DVec<3>(box.min)), largest(DVec<3>(box.max))});
         step_ = 1e-9 * smaller + 1e-14 * farthest;
         float_step_ = 0x1p-23 * farthest;
-        is_fine_ = a_.triangle_count() + b_.triangle_count() > min_fine_triangles;
+        is_fine_ = a_.triangle_count() + b_.triangle_count() > max_coarse_triangles;
         if (is_fine_) cover_.add_balls(shape_a, shape_b);
     }
 
@@ -88,6 +87,10 @@ public:
                             },
                             [&](const DVec<3>& direction, double distance) { try_move(direction, distance); }});
         if (!is_done()) search_meets(max_meets, step_);
+        if (!is_fine_) {
+            leave_along_normals(a_, 1);
+            leave_along_normals(b_, -1);
+        }
         return best_;
     }
 
@@ -111,12 +114,25 @@ private:
             for (int i = 0; i < 125; ++i) {
                 const DVec<3> point(i % 5 - 2, i / 5 % 5 - 2, i / 25 - 2);
                 if (largest(point) == 2 && length_squared(point) == squared)
-                    visit(normalized<3>(point), squared % 4 == 0 ? 1.5 : 1);
+                    visit(normalized<3>(point), squared % 4 == 0 ? 1.25 : 1);
             }
     }
 
     /// Whether the best move is the least, or no more may be tested.
     bool is_done() const { return tests_ >= max_tests || best_distance_ <= cover_.min_distance() * (1 + 1e-5); }
+
+    /// Moves B along the normals of a solid's faces. `sign` is that of the normal in the move.
+    void leave_along_normals(const PlacedSolid& solid, double sign) {
+        DVec<3> last(0.0);
+        for (std::uint32_t i = 0; i < solid.triangle_count() && !is_done(); ++i) {
+            const Corners t = solid.corners(i);
+            const DVec<3> normal = normalized<3>(cross(t[1] - t[0], t[2] - t[0])) * sign;
+            if (normal == last) continue;
+            last = normal;
+            const Exit exit = exit_along(normal, limit());
+            if (exit.distance < limit()) take(normal, exit.distance);
+        }
+    }
 
     void try_move(const DVec<3>& direction, double distance) {
         if (cover_.has_ball_at(direction * distance) || cover_.has_pair_at(direction, distance, step_)) return;
@@ -205,16 +221,21 @@ private:
     /// Where triangles begin to cross as B moves on; as far as `reach` if they don't.
     Entry first_entry(const PlacedSolid& moved, const DVec<3>& direction, double reach, bool from_outside) const {
         Entry entry{reach, DVec<3>(0.0)};
-        a_.each_triangle(swept(moved.box(), direction * reach), [&](std::uint32_t index_a) {
-            const Corners a = a_.corners(index_a);
-            if (from_outside && faces(a, direction)) return true;
-            moved.each_triangle(swept(box_of(a), direction * -entry.distance), [&](std::uint32_t index_b) {
+        const bool is_a_outer = !a_.has_tree() || moved.has_tree();
+        const PlacedSolid &outer = is_a_outer ? a_ : moved, &inner = is_a_outer ? moved : a_;
+        const DVec<3> of_inner = is_a_outer ? direction : -direction;
+        outer.each_triangle(swept(inner.box(), of_inner * reach), [&](std::uint32_t index) {
+            const Corners t = outer.corners(index);
+            if (from_outside && faces(t, of_inner)) return true;
+            inner.each_triangle(swept(box_of(t), of_inner * -entry.distance), [&](std::uint32_t other_index) {
                 if (++tests_ >= max_tests) return false;
-                const Corners b = moved.corners(index_b);
-                if (from_outside && faces(b, -direction)) return true;
+                const Corners other = inner.corners(other_index);
+                if (from_outside && faces(other, -of_inner)) return true;
                 // Where they begin to cross is where they part on the way back.
                 SlideInterval slide;
-                if (slide_interval(a, b, -direction, {-step_, -entry.distance}, slide) && slide.to < step_)
+                if (slide_interval(is_a_outer ? t : other, is_a_outer ? other : t, -direction,
+                                   {-step_, -entry.distance}, slide) &&
+                    slide.to < step_)
                     entry = {std::max(-slide.to, 0.0), slide.exit_normal};
                 return true;
             });
@@ -283,8 +304,8 @@ private:
     /// aren't slivers take fewer.
     static constexpr std::uint32_t max_tests = 1u << 23u;
     static constexpr int max_slides = 64, max_crossings = 4, max_meets = 8;
-    /// Coarser solids have so few features that balls don't pay.
-    static constexpr std::uint32_t min_fine_triangles = 256;
+    /// Solids of up to so many triangles together have so few features that balls don't pay.
+    static constexpr std::uint32_t max_coarse_triangles = 256;
 
     PlacedSolid a_, b_;
     MoveCover cover_;

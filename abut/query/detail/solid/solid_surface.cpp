@@ -135,11 +135,20 @@ std::uint32_t SolidSurface::neighbour(std::uint32_t index, std::uint32_t side) c
 void SolidSurface::each_triangle(const Aabb3& box, FunctionRef<bool(std::uint32_t triangle)> visit) const {
     if (mesh_ != nullptr)
         return find_overlapping(mesh_->tree, box, [&](std::uint32_t index) -> bool { return visit(index); });
-    for (std::uint32_t i = 0; i < triangle_count(); ++i) {
-        const std::array<std::uint32_t, 3> t = triangle(i);
+    const auto visit_if_near = [&](std::uint32_t index, const std::array<std::uint32_t, 3>& t) {
         const Vec3 a = position(t[0]), b = position(t[1]), c = position(t[2]);
         const Aabb3 around{glm::min(glm::min(a, b), c), glm::max(glm::max(a, b), c)};
-        if (overlaps(around, box) && !visit(i)) return;
+        return !overlaps(around, box) || visit(index);
+    };
+    std::uint32_t index = 0;
+    if (facets_ == nullptr) {
+        while (index < box_triangles.size() && visit_if_near(index, box_triangles[index])) ++index;
+        return;
+    }
+    for (std::uint32_t face = 0; face < facets_->loop_ends.size(); ++face) {
+        const std::span<const std::uint32_t> loop = facets_->loop(face);
+        for (std::size_t i = 2; i < loop.size(); ++i)
+            if (!visit_if_near(index++, {loop[0], loop[i - 1], loop[i]})) return;
     }
 }
 

@@ -28,6 +28,8 @@ public:
     std::uint32_t point_count() const;
     /// Like that of a mesh.
     std::uint32_t neighbour(std::uint32_t triangle, std::uint32_t side) const;
+    /// Whether `each_triangle` goes down a tree. Otherwise it tests all triangles.
+    bool has_tree() const { return mesh_ != nullptr; }
     /// Visits at least the triangles whose boxes overlap the box; false stops.
     void each_triangle(const Aabb3& box, FunctionRef<bool(std::uint32_t triangle)> visit) const;
 
