@@ -158,6 +158,30 @@ TEST(Between, WheelsOnRailsAreFine) {
     for (const ContactFinding<3>& finding : result.findings) EXPECT_NEAR(finding.distance, -bump, 0.2f * bump);
 }
 
+TEST(Between, ABarMeetsAPostAsItTurns) {
+    // Half a turn from one frame to the other; the post is beside the bar at both.
+    for (const char* name : {"A bar", "The bar"}) {
+        Scene scene;
+        test::add_object(scene, "Post", test::box_triangles({0.1f, 1, 0.1f}),
+                         glm::translate(glm::dmat4(1.0), glm::dvec3(0, 0, 1.5)));
+        Animation animation;
+        animation.motions.resize(1);
+        animation.motions[0].node = test::add_object(scene, name, test::box_triangles({2, 0.1f, 0.1f}));
+        for (const double time : {0.0, 0.5, 1.0}) {
+            animation.motions[0].rotation.times.push_back(time);
+            animation.motions[0].rotation.values.push_back(
+                glm::angleAxis(3.14159265358979 * time, glm::dvec3(0, 1, 0)));
+        }
+        animation.length = 1;
+        scene.animations.push_back(animation);
+        schedule(scene);
+        const CheckResult<3> result = check_at(scene, {0, 1});
+        ASSERT_EQ(result.findings.size(), 1u) << name;
+        EXPECT_TRUE(result.findings[0].between);
+        EXPECT_NEAR(result.findings[0].deepest_time, 0.5, 0.1);
+    }
+}
+
 TEST(Between, StepsJump) {
     const Keys keys{{0, {-5, 0, 0}}, {1, {5, 0, 0}}, {2, {-5, 0, 0}}};
     EXPECT_EQ(check_between_keys(walker_and_wall(keys)).findings.size(), 2u);

@@ -6,6 +6,7 @@
 #include "tool/objects/scene_objects.hpp"
 
 #include <algorithm>
+#include <string>
 #include <tuple>
 
 #include <gtest/gtest.h>
@@ -15,24 +16,28 @@ namespace {
 
 using oracle::Random;
 
-// Boxes that slide and turn through one another.
+// Boxes and bodies that aren't convex that slide through one another.
 Scene crowd(std::uint64_t seed) {
     Random random(seed);
     Scene scene;
     for (int i = 0; i < 40; ++i) {
         const auto place = [&] { return random.uniform(-3, 3); };
-        const std::uint32_t node = test::add_unit_box(scene, "Box " + std::to_string(i), {place(), place(), place()});
+        const glm::dvec3 at(place(), place(), place());
+        const std::string name = "Body " + std::to_string(i);
+        const std::uint32_t node = i % 5 < 3 ? test::add_unit_box(scene, name, at)
+                                             : test::add_object(scene, name, test::corner_triangles(0.5f),
+                                                                glm::translate(glm::dmat4(1.0), at));
         if (i % 2 == 0) test::add_slide(scene, node, {place(), place(), place(), place()});
     }
     return scene;
 }
 
-CheckResult<3> check_with(const Scene& scene, std::size_t threads) {
+CheckResult<3> check_with(const Scene& scene, float clearance, std::size_t threads) {
     SceneObjects objects(scene);
     const std::vector<double> times = key_times(scene);
     EXPECT_FALSE(objects.go_to(times.front()));
     CheckOptions options;
-    options.limits.clearance = 0.05f;
+    options.limits.clearance = clearance;
     options.threads = threads;
     Result<CheckResult<3>> result = check<3>(objects, times, options, [](std::size_t, std::size_t) {});
     EXPECT_TRUE(result);
@@ -41,20 +46,23 @@ CheckResult<3> check_with(const Scene& scene, std::size_t threads) {
 
 TEST(Threads, TheSameFindingsWithAnyNumber) {
     const Scene scene = crowd(29);
-    const CheckResult<3> one = check_with(scene, 1);
-    EXPECT_GT(one.findings.size(), 30u);
-    EXPECT_TRUE(std::any_of(one.findings.begin(), one.findings.end(), [](const auto& f) { return f.between; }));
-    for (const std::size_t threads : {2, 3, 8}) {
-        const CheckResult<3> many = check_with(scene, threads);
-        EXPECT_EQ(many.tested, one.tested);
-        EXPECT_EQ(many.swept, one.swept);
-        ASSERT_EQ(many.findings.size(), one.findings.size());
-        for (std::size_t i = 0; i < one.findings.size(); ++i) {
-            const ContactFinding<3>&a = one.findings[i], &b = many.findings[i];
-            EXPECT_EQ(std::tie(a.a, a.b, a.first, a.last, a.deepest, a.distance, a.time, a.last_time, a.deepest_time),
-                      std::tie(b.a, b.b, b.first, b.last, b.deepest, b.distance, b.time, b.last_time, b.deepest_time));
-            EXPECT_EQ(a.normal, b.normal);
-            EXPECT_EQ(a.points, b.points);
+    for (const float clearance : {0.0f, 0.05f}) {
+        const CheckResult<3> one = check_with(scene, clearance, 1);
+        EXPECT_GT(one.findings.size(), 30u);
+        EXPECT_TRUE(std::any_of(one.findings.begin(), one.findings.end(), [](const auto& f) { return f.between; }));
+        for (const std::size_t threads : {2, 3, 8}) {
+            const CheckResult<3> many = check_with(scene, clearance, threads);
+            EXPECT_EQ(many.tested, one.tested);
+            EXPECT_EQ(many.swept, one.swept);
+            ASSERT_EQ(many.findings.size(), one.findings.size());
+            for (std::size_t i = 0; i < one.findings.size(); ++i) {
+                const ContactFinding<3>&a = one.findings[i], &b = many.findings[i];
+                EXPECT_EQ(
+                    std::tie(a.a, a.b, a.first, a.last, a.deepest, a.distance, a.time, a.last_time, a.deepest_time),
+                    std::tie(b.a, b.b, b.first, b.last, b.deepest, b.distance, b.time, b.last_time, b.deepest_time));
+                EXPECT_EQ(a.normal, b.normal);
+                EXPECT_EQ(a.points, b.points);
+            }
         }
     }
 }

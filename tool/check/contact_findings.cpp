@@ -33,15 +33,27 @@ void ContactFindings<D>::extend(const Pair& pair, std::size_t frame) {
 }
 
 template <int D>
-void ContactFindings<D>::add(const Pair& pair, std::size_t frame, PairContact<D>&& contact) {
+void ContactFindings<D>::add(const Pair& pair, std::size_t frame) {
     extend(pair, frame);
-    const bool is_new = next_.empty() || next_.back().pair != pair;
-    if (is_new) {
-        next_.emplace_back();
-        next_.back().pair = pair;
-        next_.back().first = next_.back().last = static_cast<std::uint32_t>(frame);
-    }
-    Open& open = next_.back();
+    if (!next_.empty() && next_.back().pair == pair) return;
+    next_.emplace_back();
+    next_.back().pair = pair;
+    next_.back().first = next_.back().last = static_cast<std::uint32_t>(frame);
+}
+
+template <int D>
+void ContactFindings<D>::add(const Pair& pair, std::size_t frame, PairContact<D>&& contact) {
+    add(pair, frame);
+    deepen(next_.back(), frame, std::move(contact));
+}
+
+template <int D>
+void ContactFindings<D>::deepen(const Pair& pair, std::size_t frame, PairContact<D>&& contact) {
+    deepen(open_[static_cast<std::size_t>(find(pair) - open_.begin())], frame, std::move(contact));
+}
+
+template <int D>
+void ContactFindings<D>::deepen(Open& open, std::size_t frame, PairContact<D>&& contact) {
     if (contact.distance >= open.distance) return;
     open.distance = contact.distance;
     if (rank(open) > last_) return;
@@ -50,8 +62,8 @@ void ContactFindings<D>::add(const Pair& pair, std::size_t frame, PairContact<D>
         ++count_details_;
     }
     ContactFinding<D>& finding = *open.details;
-    finding.a = pair.first;
-    finding.b = pair.second;
+    finding.a = open.pair.first;
+    finding.b = open.pair.second;
     finding.deepest = frame;
     finding.distance = contact.distance;
     finding.allow = contact.allow;
@@ -80,10 +92,15 @@ void ContactFindings<D>::add(ContactFinding<D>&& between) {
 }
 
 template <int D>
-bool ContactFindings<D>::has(const Pair& pair) const {
+auto ContactFindings<D>::find(const Pair& pair) const -> typename std::vector<Open>::const_iterator {
     const auto found = std::lower_bound(open_.begin(), open_.end(), pair,
                                         [](const Open& open, const Pair& wanted) { return open.pair < wanted; });
-    return found != open_.end() && found->pair == pair;
+    return found != open_.end() && found->pair == pair ? found : open_.end();
+}
+
+template <int D>
+bool ContactFindings<D>::has(const Pair& pair) const {
+    return find(pair) != open_.end();
 }
 
 // Discards the details of all but the deepest findings.

@@ -36,8 +36,13 @@ class ContactFindings {
 public:
     explicit ContactFindings(std::size_t max_findings) : max_findings_(max_findings) {}
 
+    /// Sets the depth of a contact of the last frame, found at a frame of it, if it is deeper there.
+    void deepen(const Pair& pair, std::size_t frame, PairContact<D>&& contact);
+
     // Per frame: add or extend pairs in sorted order, then end the frame.
     void add(const Pair& pair, std::size_t frame, PairContact<D>&& contact);
+    /// The same without a depth: `deepen` follows before the first frame without a contact of the pair.
+    void add(const Pair& pair, std::size_t frame);
     /// Extends the contact of the last frame, if there is one: neither object moved.
     void extend(const Pair& pair, std::size_t frame);
     void end_frame();
@@ -71,6 +76,8 @@ private:
                 {static_cast<std::uint32_t>(finding.a), static_cast<std::uint32_t>(finding.b)},
                 finding.first};
     }
+    typename std::vector<Open>::const_iterator find(const Pair& pair) const;
+    void deepen(Open& open, std::size_t frame, PairContact<D>&& contact);
     void close_until(const Pair& pair);
     void close(Open&& open);
     void prune();

@@ -46,6 +46,14 @@ bool is_inside(const ObjectAt<2>&, const ObjectAt<2>&) {
     return false;
 }
 
+// Whether two overlapping bodies are deeper than allowed for as little as two of their triangles: no move that parts
+// the bodies is shorter than one that parts these.
+template <int D>
+bool are_surely_deep(const ObjectAt<D>& a, const ObjectAt<D>& b, float allow) {
+    constexpr float certainly = 1.001f;
+    return are_solids(a.object, b.object) && -closest(surface_of(a), surface_of(b)).distance > certainly * allow;
+}
+
 }  // namespace
 
 template <int D>
@@ -59,16 +67,19 @@ float allowed_depth(const Object<D>& a, const Object<D>& b, const Limits& limits
 }
 
 template <int D>
-std::optional<PairContact<D>> pair_contact(const ObjectAt<D>& a, const ObjectAt<D>& b, const Limits& limits) {
+std::optional<PairContact<D>> pair_contact(const ObjectAt<D>& a, const ObjectAt<D>& b, const Limits& limits,
+                                           Depth depth) {
     const float allow = allowed_depth(a.object, b.object, limits);
     const bool has_clearance = limits.clearance > 0;
     if (has_clearance || overlaps(a.placed, b.placed)) {
+        if (!has_clearance && depth == Depth::not_needed && are_surely_deep(a, b, allow))
+            return PairContact<D>{.allow = allow, .points = {}, .has_depth = false};
         const Contact<D> c = contact(a.placed, b.placed, {.margin = limits.clearance});
         const bool is_deep = c && c.depth > allow;
         const bool is_close = c && has_clearance && (c.depth < -tolerance * smaller_size(a.object, b.object)) &&
                               (c.depth > -limits.clearance);
         if (is_deep || is_close) {
-            PairContact<D> result{-c.depth, allow, c.normal, {}, false};
+            PairContact<D> result{-c.depth, allow, c.normal, {}};
             for (const auto& point : c.points) result.points.push_back(point.position);
             result.inside = is_deep && are_solids(a.object, b.object) && is_inside(a, b);
             return result;
@@ -85,7 +96,9 @@ template float smaller_size(const Object<2>& a, const Object<2>& b);
 template float smaller_size(const Object<3>& a, const Object<3>& b);
 template float allowed_depth(const Object<2>& a, const Object<2>& b, const Limits& limits);
 template float allowed_depth(const Object<3>& a, const Object<3>& b, const Limits& limits);
-template std::optional<PairContact<2>> pair_contact(const ObjectAt<2>& a, const ObjectAt<2>& b, const Limits& limits);
-template std::optional<PairContact<3>> pair_contact(const ObjectAt<3>& a, const ObjectAt<3>& b, const Limits& limits);
+template std::optional<PairContact<2>> pair_contact(const ObjectAt<2>& a, const ObjectAt<2>& b, const Limits& limits,
+                                                    Depth depth);
+template std::optional<PairContact<3>> pair_contact(const ObjectAt<3>& a, const ObjectAt<3>& b, const Limits& limits,
+                                                    Depth depth);
 
 }  // namespace abut::tool

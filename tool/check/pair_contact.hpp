@@ -4,6 +4,7 @@
 
 #include "tool/objects/objects.hpp"
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -35,8 +36,12 @@ struct PairContact {
     float allow = 0;     ///< the allowed depth
     Vec<D> normal{};     ///< from a to b
     std::vector<Vec<D>> points;
-    bool inside = false;  ///< one body is inside the other without touching its surface deeper than allowed
+    bool inside = false;    ///< one body is inside the other without touching its surface deeper than allowed
+    bool has_depth = true;  ///< false: it is deeper than allowed, and no more is known
 };
+
+/// Whether the depth of a contact is needed. Mostly it takes far less time to tell that it is more than allowed.
+enum class Depth : std::uint8_t { needed, not_needed };
 
 /// The bounding radius of the smaller object.
 template <int D>
@@ -48,6 +53,7 @@ float allowed_depth(const Object<D>& a, const Object<D>& b, const Limits& limits
 
 /// Returns nothing if the objects are neither deeper than allowed nor closer than the clearance.
 template <int D>
-std::optional<PairContact<D>> pair_contact(const ObjectAt<D>& a, const ObjectAt<D>& b, const Limits& limits);
+std::optional<PairContact<D>> pair_contact(const ObjectAt<D>& a, const ObjectAt<D>& b, const Limits& limits,
+                                           Depth depth = Depth::needed);
 
 }  // namespace abut::tool

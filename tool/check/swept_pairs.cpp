@@ -15,6 +15,10 @@ constexpr int max_touches = 32;
 // Sampling steps while a pair is in contact: at most this motion relative to the smaller object's size, and at most
 // this fraction of a stage. The first step is the allowed depth, at least `min_step`.
 constexpr double max_step = 0.05, max_stage_fraction = 1.0 / 64, min_step = 1e-4;
+// The intervals of a stage, as fractions, in which objects are looked for that may come near.
+constexpr double min_interval = 1.0 / 32;
+// A sweep may hit what is no farther than this, relative to the smaller object's size.
+constexpr double touching = 1e-5;
 
 template <int D>
 Motion<D> remaining(const Motion<D>& motion, double from) {
@@ -27,6 +31,23 @@ double angle_of(float turn) {
 }
 double angle_of(const Vec3& turn) {
     return static_cast<double>(glm::length(turn));
+}
+
+// Upper bound of the distance that the points of a shape move along a normal by a rotation.
+double rotation_along(const Vec2&, float turn, double reach) {
+    return angle_of(turn) * reach;
+}
+double rotation_along(const Vec3& normal, const Vec3& turn, double reach) {
+    return static_cast<double>(glm::length(glm::cross(normal, turn))) * reach;
+}
+
+// Upper bound of the distance by which the points of a approach those of b along a normal from a to b.
+template <int D>
+double closing(const Vec<D>& normal, const Object<D>& a, const Motion<D>& motion_a, const Object<D>& b,
+               const Motion<D>& motion_b) {
+    return std::max(0.0, static_cast<double>(glm::dot(normal, motion_a.move - motion_b.move))) +
+           rotation_along(normal, motion_a.turn, static_cast<double>(a.reach)) +
+           rotation_along(normal, motion_b.turn, static_cast<double>(b.reach));
 }
 
 // A box that contains the object during the entire motion. A point's path deviates from the straight motion by at most
@@ -59,6 +80,21 @@ struct PosedObject {
           box(bounds(placed)) {}
 };
 
+// Whether two objects may come as near as a clearance between two fractions of their motions: they are as far from each
+// other as in the middle between these, but for their motion from there.
+template <int D>
+bool may_come_near(const Object<D>& a, const Motion<D>& motion_a, const Object<D>& b, const Motion<D>& motion_b,
+                   double max_motion, float clearance, double from = 0, double to = 1) {
+    const double middle = 0.5 * (from + to);
+    const PosedObject<D> posed_a(a, motion_a, middle), posed_b(b, motion_b, middle);
+    const double reach = 1.001 * (0.5 * (to - from) * max_motion + static_cast<double>(clearance));
+    if (!overlaps(rounded(posed_a.placed, reach), posed_b.placed)) return false;
+    const auto may = [&](double first, double last) {
+        return may_come_near(a, motion_a, b, motion_b, max_motion, clearance, first, last);
+    };
+    return to - from <= min_interval || may(from, middle) || may(middle, to);
+}
+
 // Extends a contact that began at `first` to a later time.
 template <int D>
 void extend(std::optional<ContactFinding<D>>& known, double first, double time, PairContact<D>&& contact) {
@@ -82,7 +118,7 @@ void extend(std::optional<ContactFinding<D>>& known, double first, double time, 
 template <int D>
 void SweptPairs<D>::sweep_pair(const Stage<D>& stage, float clearance, Swept& swept) const {
     const Pair& pair = swept.pair;
-    const Object<D>&a = objects_[pair.first], &b = objects_[pair.second];
+    const Object<D>&a = *swept.a, &b = *swept.b;
     const Motion<D>&motion_a = stage.motions[pair.first], &motion_b = stage.motions[pair.second];
     const double rotation = speed(Motion<D>{{}, {}, motion_a.turn}, static_cast<double>(a.reach)) +
                             speed(Motion<D>{{}, {}, motion_b.turn}, static_cast<double>(b.reach));
@@ -93,9 +129,16 @@ void SweptPairs<D>::sweep_pair(const Stage<D>& stage, float clearance, Swept& sw
     const double first_step = std::max(static_cast<double>(allowed_depth(a, b, limits_)), min_step * size) / max_motion;
     const double longest = std::max(max_step * size / max_motion, max_stage_fraction);
     const auto time_of = [&](double fraction) { return stage.from + (stage.to - stage.from) * fraction; };
-    const PosedObject<D> first_a(a, motion_a, 0), first_b(b, motion_b, 0);
-    const Closest<D> gap = closest(first_a.placed, first_b.placed);
-    if (static_cast<double>(gap.distance) > 1.001 * (max_motion + static_cast<double>(clearance))) return;
+    if (!may_come_near(a, motion_a, b, motion_b, max_motion, clearance)) return;
+    // Two bodies on either side of a plane come no closer than by their motion through it.
+    if (a.solid && b.solid) {
+        const PosedObject<D> first_a(a, motion_a, 0), first_b(b, motion_b, 0);
+        const Closest<D> gap = closest(first_a.placed, first_b.placed);
+        const double least = static_cast<double>(gap.distance) - 1.001 * closing(gap.normal, a, motion_a, b, motion_b);
+        const double ignored = limits_.clearance > 0 ? static_cast<double>(limits_.clearance) + touching * size
+                                                     : -0.999 * static_cast<double>(allowed_depth(a, b, limits_));
+        if (least > ignored) return;
+    }
     const View<D> rounded_a = clearance > 0 ? rounded(a.shape, static_cast<double>(clearance)) : a.shape;
 
     double fraction = 0;
@@ -118,7 +161,7 @@ void SweptPairs<D>::sweep_pair(const Stage<D>& stage, float clearance, Swept& sw
 }
 
 template <int D>
-std::optional<Problem> SweptPairs<D>::test(const Stage<D>& stage, const ContactFindings<D>& at_first) {
+std::optional<Problem> SweptPairs<D>::add(const Stage<D>& stage, const ContactFindings<D>& at_first) {
     if (std::find(stage.parts.begin(), stage.parts.end(), StageMotion::moves) == stage.parts.end()) return std::nullopt;
     boxes_.resize(objects_.size());
     for (std::size_t i = 0; i < boxes_.size(); ++i)
@@ -126,19 +169,12 @@ std::optional<Problem> SweptPairs<D>::test(const Stage<D>& stage, const ContactF
                         ? Aabb<D>::empty()
                         : grown(swept_box(objects_[i], stage.motions[i]), 0.5f * limits_.clearance);
     if (std::optional<Problem> problem = overlapping_.find(boxes_, piles_)) return problem;
-    swept_pairs_.clear();
+    std::vector<Swept>& pairs = stages_.emplace_back(SweptStage{stage, {}}).pairs;
     for (const Pair& pair : overlapping_.pairs()) {
         const bool moves =
             stage.parts[pair.first] == StageMotion::moves || stage.parts[pair.second] == StageMotion::moves;
-        if (moves && !at_first.has(pair)) swept_pairs_.push_back({pair});
+        if (moves && !at_first.has(pair)) pairs.push_back({pair, copies_.of(pair.first), copies_.of(pair.second)});
     }
-    workers_.run(static_cast<std::uint32_t>(swept_pairs_.size()), [&](std::uint32_t i) {
-        Swept& swept = swept_pairs_[i];
-        sweep_pair(stage, 0, swept);
-        if (limits_.clearance > 0 && !swept.contact && !contacts_.contains(swept.pair))
-            sweep_pair(stage, limits_.clearance, swept);
-    });
-    for (Swept& swept : swept_pairs_) add(std::move(swept));
     return std::nullopt;
 }
 
@@ -158,10 +194,21 @@ void SweptPairs<D>::add(Swept&& swept) {
 }
 
 template <int D>
-void SweptPairs<D>::end(std::size_t first, ContactFindings<D>& findings) {
+void SweptPairs<D>::find(std::size_t first, ContactFindings<D>& findings) {
+    for (auto& [stage, pairs] : stages_) {
+        std::erase_if(pairs, [&](const Swept& swept) { return findings.has(swept.pair); });
+        workers_.run(static_cast<std::uint32_t>(pairs.size()), [&](std::uint32_t i) {
+            Swept& swept = pairs[i];
+            sweep_pair(stage, 0, swept);
+            if (limits_.clearance > 0 && !swept.contact && !contacts_.contains(swept.pair))
+                sweep_pair(stage, limits_.clearance, swept);
+        });
+        for (Swept& swept : pairs) add(std::move(swept));
+    }
+    stages_.clear();
     for (auto& [pair, finding] : contacts_) {
         finding.first = finding.last = finding.deepest = first;
-        if (!findings.has(pair)) findings.add(std::move(finding));
+        findings.add(std::move(finding));
     }
     contacts_.clear();
 }

@@ -8,6 +8,7 @@
 #include <abut/abut.hpp>
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -22,18 +23,19 @@ struct Object {
     std::string type;  ///< class assigned by the author, if the format has classes
 
     // State at the current time:
-    std::string_view kind;       ///< kind of shape: "solid", "mesh"; in 2D "box", "tiles", ...
-    std::string_view part_name;  ///< name of a part in reports: "triangle", "tile"; empty for a convex shape
-    std::size_t parts = 1;       ///< count of parts
-    bool present = false;        ///< false while its transform collapses it to a line or a point
-    bool moved = false;          ///< it moved since the last time
-    bool solid = false;          ///< the shape is convex
-    bool filled = false;         ///< a closed surface or line that bounds a body: other objects can be inside
-    float radius = 0;            ///< bounding radius
-    InteriorPoint<D> inside;     ///< in the shape's frame
-    float reach = 0;             ///< maximum distance of the shape from the origin of its frame
-    View<D> shape;               ///< in its own frame
-    View<3> surface;             ///< of a filled mesh in space: its triangles alone, in its own frame
+    std::string_view kind;             ///< kind of shape: "solid", "mesh"; in 2D "box", "tiles", ...
+    std::string_view part_name;        ///< name of a part in reports: "triangle", "tile"; empty for a convex shape
+    std::size_t parts = 1;             ///< count of parts
+    bool present = false;              ///< false while its transform collapses it to a line or a point
+    bool moved = false;                ///< it moved since the last time
+    bool solid = false;                ///< the shape is convex
+    bool filled = false;               ///< a closed surface or line that bounds a body: other objects can be inside
+    float radius = 0;                  ///< bounding radius
+    InteriorPoint<D> inside;           ///< in the shape's frame
+    float reach = 0;                   ///< maximum distance of the shape from the origin of its frame
+    std::shared_ptr<const void> data;  ///< what the shape refers to, if that may change; another one if it does
+    View<D> shape;                     ///< in its own frame
+    View<3> surface;                   ///< of a filled mesh in space: its triangles alone, in its own frame
     Pose<D> pose;
     View<D> placed;
     Aabb<D> box = Aabb<D>::empty();

@@ -153,16 +153,17 @@ std::optional<Problem> SceneObjects::bake(std::size_t i, const glm::dmat3& linea
         Result<Polyhedron> built = Polyhedron::build(points);
         if (!built) return out_of_range(object);
         object.inside = interior_point(*built);
-        node.shape = *std::move(built);
+        node.shape = std::make_shared<const Shape>(*std::move(built));
     } else {
         Result<Mesh> built = Mesh::build(points, triangles);
         if (!built) return out_of_range(object);
         object.filled = built->closed() && signed_volume(points, triangles) > 0;
         object.inside = interior_point(*built, object.filled);
-        node.shape = *std::move(built);
+        node.shape = std::make_shared<const Shape>(*std::move(built));
     }
-    object.surface = std::visit([](const auto& shape) { return View<3>(view(shape)); }, node.shape);
-    object.shape = object.filled ? View<3>(view(solid(std::get<Mesh>(node.shape)))) : object.surface;
+    object.data = node.shape;
+    object.surface = std::visit([](const auto& shape) { return View<3>(view(shape)); }, *node.shape);
+    object.shape = object.filled ? View<3>(view(solid(std::get<Mesh>(*node.shape)))) : object.surface;
     return std::nullopt;
 }
 

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -35,7 +36,7 @@ public:
 
     /// Scale and shear of the node's transform are baked into the shape.
     using Shape = std::variant<Polyhedron, Mesh>;
-    const Shape& shape(std::size_t object) const { return nodes_[object].shape; }
+    const Shape& shape(std::size_t object) const { return *nodes_[object].shape; }
 
     /// Index of the node in the scene.
     std::uint32_t node(std::size_t object) const { return nodes_[object].node; }
@@ -56,7 +57,7 @@ private:
     struct Node {
         std::uint32_t node = 0;
         std::size_t model = 0;
-        Shape shape;
+        std::shared_ptr<const Shape> shape;
         glm::dmat4 matrix{std::numeric_limits<double>::quiet_NaN()};  ///< to world space
         glm::dmat3 baked{0.0};                                        ///< linear part that is baked into the shape
     };
