@@ -17,6 +17,7 @@ void add_pairs_in_the_plane(Hash& hash);
 void add_pairs_in_space(Hash& hash);
 void add_polytopes(Hash& hash);
 void add_decompositions(Hash& hash);
+void add_solids(Hash& hash);
 void add_levels(Hash& hash);
 void add_broad_phases(Hash& hash);
 void add_fields(Hash& hash);
@@ -31,6 +32,7 @@ inline constexpr Section sections[] = {
     {"pairs3", add_pairs_in_space},
     {"polytopes", add_polytopes},
     {"decompositions", add_decompositions},
+    {"solids", add_solids},
     {"levels", add_levels},
     {"broad_phases", add_broad_phases},
     {"fields", add_fields},
