@@ -164,7 +164,7 @@ bool World<D>::PairTests::find_contact(const IdPair& pair) {
     const std::uint32_t a = pair.a.index - 1, b = pair.b.index - 1;
     const ShapeType type_a = items_[a].type, type_b = items_[b].type;
     const bool has_parts = type_a == ShapeType::composite || type_b == ShapeType::composite;
-    const bool is_filtered = world_.filters_edges(a) || world_.filters_edges(b);
+    const bool is_filtered = world_.filters_edges_ && !(items_[a].fixed && items_[b].fixed);
     if (has_parts && is_filtered) return find_surface_contacts(pair);
     const auto [placed_a, placed_b] = placed_views(pair);
     Contact<D>& found = results_.found.add(pair, {}).contact;

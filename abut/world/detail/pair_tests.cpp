@@ -31,7 +31,7 @@ void World<D>::PairTests::run(std::size_t begin, std::size_t end) {
 
 /// Tests a near pair. If nothing changed, the last result is repeated.
 template <int D>
-void World<D>::PairTests::test_pair(const detail::SlotPair& near) {
+inline void World<D>::PairTests::test_pair(const detail::SlotPair& near) {
     const Item &a = items_[near.a], &b = items_[near.b];
     const IdPair pair{world_.id_of(near.a), world_.id_of(near.b)};
     if (!world_.has_changed_near(near.a, near.b) && !world_.has_changed_near(near.b, near.a) &&
@@ -47,7 +47,7 @@ void World<D>::PairTests::test_pair(const detail::SlotPair& near) {
 /// Tests whether a pair touches now, with the early out by bounding balls, and adds it to results_.touching if so. The
 /// first part of an update alone measures, because measurements are shared.
 template <int D>
-bool World<D>::PairTests::test_touch(const IdPair& pair) {
+inline bool World<D>::PairTests::test_touch(const IdPair& pair) {
     const Item &a = items_[pair.a.index - 1], &b = items_[pair.b.index - 1];
     detail::BallEarlyOuts::Entry& entry = world_.ball_early_outs_.entry(a.type, b.type, a.sensor || b.sensor);
     if (is_first_part_ && world_.ball_early_outs_.due(entry)) return measure(pair, entry);
@@ -93,7 +93,7 @@ bool World<D>::PairTests::balls_apart(const IdPair& pair) const {
 
 /// Tests the shapes of a pair, and adds it to results_.touching if they touch.
 template <int D>
-bool World<D>::PairTests::test_shapes(const IdPair& pair) {
+inline bool World<D>::PairTests::test_shapes(const IdPair& pair) {
     const detail::SlotPair slots{pair.a.index - 1, pair.b.index - 1};
     const std::size_t first = results_.found.size();
     if (items_[slots.a].sensor || items_[slots.b].sensor) {
