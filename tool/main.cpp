@@ -19,7 +19,8 @@ namespace abut::tool {
 namespace {
 
 constexpr const char* files =
-    "3D: glTF 2.0, or any format that Assimp reads; 2D: a Tiled map (.tmx, .tmj) or a drawing (.svg)";
+    "3D: glTF 2.0, a scene of Godot (.tscn), or any format that Assimp reads; 2D: a Tiled map (.tmx, .tmj) or a "
+    "drawing (.svg)";
 
 // Options of reading files. Verbs that repair meshes have no --strict.
 void add_options(CLI::App& verb, bool& allow_outside, bool& all_meshes, bool* be_strict) {

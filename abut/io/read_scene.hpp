@@ -13,9 +13,10 @@
 
 namespace abut {
 
-/// Reads a scene: glTF 2.0 natively, any other format through Assimp. Units and axes are those of the file. Points and
-/// lines are left out and skinned meshes read in bind pose, both with a warning. Returns a Problem, with the location
-/// in the file, for input that can't be read or used (see `detail::finish_scene`). The message doesn't name the file.
+/// Reads a scene: glTF 2.0 and Godot's .tscn natively, any other format through Assimp. Units and axes are those of the
+/// file. Points and lines are left out and skinned meshes read in bind pose, both with a warning. Returns a Problem,
+/// with the location in the file, for input that can't be read or used (see `detail::finish_scene`). The message
+/// doesn't name the file.
 Result<Scene> read_scene(const std::filesystem::path& file, const ReadOptions& options = {});
 
 /// Reads a scene from memory. `extension` names the format as a file's extension would (".glb"). Files that the scene

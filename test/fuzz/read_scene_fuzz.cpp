@@ -52,6 +52,7 @@ void check(const Result<Scene>& scene) {
 std::string_view extension_of(std::string_view text) {
     if (text.starts_with("glTF")) return ".glb";
     if (text.starts_with("{")) return ".gltf";
+    if (text.starts_with("[gd_")) return ".tscn";
     if (text.starts_with("ply\n")) return ".ply";
     if (text.starts_with("solid ")) return ".stl";
     if (text.starts_with("# obj")) return ".obj";
@@ -59,7 +60,7 @@ std::string_view extension_of(std::string_view text) {
 }
 
 bool is_for_assimp(std::string_view extension) {
-    return extension != ".glb" && extension != ".gltf";
+    return extension != ".glb" && extension != ".gltf" && extension != ".tscn";
 }
 
 }  // namespace

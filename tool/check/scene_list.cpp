@@ -16,8 +16,8 @@ namespace {
 namespace fs = std::filesystem;
 
 bool is_scene(const fs::path& file) {
-    constexpr std::array<std::string_view, 10> extensions{".gltf", ".glb", ".tmx", ".tmj", ".svg",
-                                                          ".obj",  ".fbx", ".dae", ".ply", ".stl"};
+    constexpr std::array<std::string_view, 11> extensions{".gltf", ".glb", ".tscn", ".tmx", ".tmj", ".svg",
+                                                          ".obj",  ".fbx", ".dae",  ".ply", ".stl"};
     const std::string extension = lower_case(file.extension().string());
     return std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
 }

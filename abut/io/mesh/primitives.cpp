@@ -13,13 +13,6 @@
 namespace abut::detail {
 namespace {
 
-// The hull of points as a mesh; without triangles if the points have no extent.
-Geometry hull_of(const std::vector<Vec3>& points) {
-    const Result<Polyhedron> hull = Polyhedron::build(points);
-    if (!hull || hull->rank() < 3) return {};
-    return mesh_of(*hull);
-}
-
 void add_ring(double radius, double y, std::vector<Vec3>& points) {
     for (int i = 0; i < sides_of_round_shapes; ++i) {
         const double angle = 2 * std::numbers::pi * i / sides_of_round_shapes;
@@ -57,25 +50,31 @@ void move(Geometry& mesh, const Vec3& by) {
 
 }  // namespace
 
+Geometry hull_mesh(const std::vector<Vec3>& points) {
+    const Result<Polyhedron> hull = Polyhedron::build(points);
+    if (!hull || hull->rank() < 3) return {};
+    return mesh_of(*hull);
+}
+
 Geometry box_mesh(const glm::dvec3& size) {
     std::vector<Vec3> points;
     for (int i = 0; i < 8; ++i)
         points.emplace_back(((i & 1) != 0 ? 0.5 : -0.5) * size.x, ((i & 2) != 0 ? 0.5 : -0.5) * size.y,
                             ((i & 4) != 0 ? 0.5 : -0.5) * size.z);
-    return hull_of(points);
+    return hull_mesh(points);
 }
 
 Geometry sphere_mesh(double radius) {
     std::vector<Vec3> points;
     add_sphere(radius, 0, points);
-    return hull_of(points);
+    return hull_mesh(points);
 }
 
 Geometry capsule_mesh(double radius_bottom, double radius_top, double height) {
     std::vector<Vec3> points;
     if (radius_bottom > 0) add_sphere(radius_bottom, -0.5 * height, points);
     if (radius_top > 0) add_sphere(radius_top, 0.5 * height, points);
-    return hull_of(points);
+    return hull_mesh(points);
 }
 
 Geometry cylinder_mesh(double radius_bottom, double radius_top, double height) {
@@ -86,7 +85,7 @@ Geometry cylinder_mesh(double radius_bottom, double radius_top, double height) {
         else
             points.emplace_back(0.0, y, 0.0);
     }
-    return hull_of(points);
+    return hull_mesh(points);
 }
 
 Geometry plane_mesh(double size_x, double size_z) {
@@ -101,7 +100,7 @@ Geometry hull_mesh(const Geometry& mesh) {
     std::vector<Vec3> points;
     for (const glm::uvec3& t : mesh.triangles)
         for (int i = 0; i < 3; ++i) points.push_back(mesh.points[t[i]]);
-    Geometry hull = hull_of(points);
+    Geometry hull = hull_mesh(points);
     if (hull.triangles.empty()) return mesh;
     hull.name = mesh.name;
     return hull;

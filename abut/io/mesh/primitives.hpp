@@ -5,6 +5,7 @@
 #include <abut/io/scene.hpp>
 
 #include <span>
+#include <vector>
 
 #include <glm/ext/vector_double3.hpp>
 
@@ -22,6 +23,8 @@ Geometry cylinder_mesh(double radius_bottom, double radius_top, double height);
 /// A rectangle across the y axis, seen from above.
 Geometry plane_mesh(double size_x, double size_z);
 
+/// The convex hull of points; empty if they are in a plane.
+Geometry hull_mesh(const std::vector<Vec3>& points);
 /// The convex hull of a mesh. The mesh itself, if all its points are in a plane.
 Geometry hull_mesh(const Geometry& mesh);
 
