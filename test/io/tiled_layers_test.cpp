@@ -225,8 +225,8 @@ TEST(TiledLayers, SaysWhatIsWrongAndWhere) {
     EXPECT_EQ(base64(zstd, "zstd"), "PROBLEM: line 3: layer 'L': zstd data holds more than 8 bytes\n");
     EXPECT_EQ(base64("AQAAAA==", "lzma"), "PROBLEM: line 3: layer 'L': unknown compression 'lzma'\n");
     EXPECT_EQ(read_as_text(".tmx", tmx("<layer name='L'/>")), "PROBLEM: line 3: layer 'L': no data\n");
-    EXPECT_EQ(read_as_text(".tmx", "<map orientation='hexagonal' tilewidth='1' tileheight='1'/>"),
-              "PROBLEM: line 1: the map is hexagonal; only orthogonal and isometric ones are read\n");
+    EXPECT_EQ(read_as_text(".tmx", "<map orientation='round' tilewidth='1' tileheight='1'/>"),
+              "PROBLEM: line 1: the map is 'round', which is no orientation that abut knows\n");
     EXPECT_EQ(read_as_text(".tmx", "<map tilewidth='0' tileheight='1'/>"),
               "PROBLEM: line 1: tilewidth and tileheight must be above 0\n");
     EXPECT_EQ(read_as_text(".tmx", "<map"), "PROBLEM: line 1: XML: error parsing start element tag\n");
@@ -278,6 +278,36 @@ TEST(TiledLayers, IsometricMapsAreReadOnTheGround) {
     EXPECT_EQ(tiles->box(1).min, Vec2(32, 0));
     EXPECT_EQ(tiles->box(1).max, Vec2(64, 32));
     EXPECT_EQ(bounds(level->objects[1]).min, Vec2(32, 0)) << "the object lies on the tile";
+}
+
+// The places are those of Tiled's own renderer.
+TEST(TiledLayers, StaggeredAndHexagonalMapsAreReadAsTheyAreShown) {
+    const auto map = [](const std::string& grid, const std::string& tiles, const std::string& tilesets = "") {
+        return read_as_text(".tmx", "<map " + grid + " width='2' height='2'>" + tilesets +
+                                        "<layer name='L' width='2' height='2'><data encoding='csv'>" + tiles +
+                                        "</data></layer></map>");
+    };
+    const std::string note = "note: no tileset has collision shapes: every tile is taken as full\n";
+    const std::string pointed = "orientation='hexagonal' tilewidth='14' tileheight='12' hexsidelength='6' ";
+    EXPECT_EQ(map(pointed + "staggeraxis='y' staggerindex='odd'", "1,0,0,0"),
+              "L: polygon 0,3 7,0 14,3 14,9 7,12 0,9\n" + note);
+    EXPECT_EQ(map(pointed + "staggeraxis='y' staggerindex='odd'", "1,1,1,0"),
+              "L: compound of 3 0,0:14,12 14,0:28,12 7,9:21,21\n" + note);
+    EXPECT_EQ(map("orientation='hexagonal' tilewidth='20' tileheight='18' hexsidelength='10' staggeraxis='x' "
+                  "staggerindex='even'",
+                  "1,1,1,0"),
+              "L: compound of 3 0,9:20,27 15,0:35,18 0,27:20,45\n" + note);
+    EXPECT_EQ(
+        map("orientation='staggered' tilewidth='64' tileheight='32' staggeraxis='y' staggerindex='even'", "1,0,1,0"),
+        "L: compound of 2 32,0:96,32 0,16:64,48\n" + note);
+    // A square at the left end of the middle line, turned by 60 degrees about the middle.
+    const std::string tileset =
+        "<tileset firstgid='1' name='T' tilewidth='14' tileheight='12'><tile id='0'><objectgroup>"
+        "<object id='1' x='0' y='5' width='2' height='2'/></objectgroup></tile></tileset>";
+    const std::string turned = map(pointed + "staggeraxis='y' staggerindex='odd'", "536870913,0,0,0", tileset);
+    EXPECT_NE(turned.find("0.80385"), std::string::npos) << turned;
+    EXPECT_EQ(map("orientation='hexagonal' tilewidth='14' tileheight='12' hexsidelength='12'", "1,0,0,0"),
+              "PROBLEM: line 1: hexsidelength must be less than the tile's size\n");
 }
 
 }  // namespace

@@ -264,8 +264,8 @@ TEST_F(ToolOnLevels, InfoListsObjects) {
 }
 
 TEST_F(ToolOnLevels, BadInputIsNamed) {
-    EXPECT_EQ(refusal_of("hex.tmx", "<map orientation='hexagonal' tilewidth='1' tileheight='1'/>"),
-              "line 1: the map is hexagonal; only orthogonal and isometric ones are read");
+    EXPECT_EQ(refusal_of("hex.tmx", "<map orientation='round' tilewidth='1' tileheight='1'/>"),
+              "line 1: the map is 'round', which is no orientation that abut knows");
     EXPECT_EQ(refusal_of("cut.svg", "<svg>\n<rect"), "line 2: XML: error parsing start element tag");
     EXPECT_EQ(refusal_of("none.tmj", "{}"), "not a Tiled map: it has no layers and tilewidth");
     EXPECT_EQ(refusal_of("set.tmx", "<map tilewidth='1' tileheight='1'>\n<tileset source='a.tsx'/></map>"),

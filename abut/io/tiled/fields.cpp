@@ -49,14 +49,22 @@ void read_type(const Fields& fields, std::string& type) {
 void read_map(const Fields& fields, Map& map, Defects& defects) {
     const std::string orientation = fields.has("orientation") ? fields.text("orientation") : "orthogonal";
     map.is_isometric = orientation == "isometric";
-    if (orientation != "orthogonal" && !map.is_isometric)
+    if (orientation == "staggered" || orientation == "hexagonal") {
+        map.stagger = {fields.text("staggeraxis") == "x" ? 0 : 1, fields.text("staggerindex") == "even", 0};
+        if (orientation == "hexagonal") map.stagger->side = fields.number("hexsidelength", 0, defects);
+    } else if (orientation != "orthogonal" && !map.is_isometric) {
         defects.fail(ProblemCode::bad_argument,
-                     fields.where() + "the map is " + orientation + "; only orthogonal and isometric ones are read");
+                     fields.where() + "the map is '" + orientation + "', which is no orientation that abut knows");
+    }
     map.columns = fields.count("width", 0, defects);
     map.rows = fields.count("height", 0, defects);
     map.cell = {fields.number("tilewidth", 0, defects), fields.number("tileheight", 0, defects)};
     if (!(map.cell.x > 0 && map.cell.y > 0))
         defects.fail(ProblemCode::bad_format, fields.where() + "tilewidth and tileheight must be above 0");
+    if (map.stagger && !(map.stagger->side >= 0 && map.stagger->side < map.cell[map.stagger->axis]))
+        defects.fail(ProblemCode::bad_format, fields.where() + "hexsidelength must be less than the tile's size");
+    if (map.stagger && !(map.cell.x >= 2 && map.cell.y >= 2))
+        defects.fail(ProblemCode::bad_format, fields.where() + "tilewidth and tileheight must be at least 2");
     // On the ground, where Tiled measures the objects of such a map, a cell is a square.
     if (map.is_isometric) map.cell.x = map.cell.y;
 }

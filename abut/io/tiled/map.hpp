@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -66,10 +67,18 @@ struct Tileset {
     std::map<std::uint32_t, TileData> tiles;  ///< tiles with data, by their number in the tileset
 };
 
+/// Of a staggered or hexagonal map: every second column or row is shifted by half a cell.
+struct Stagger {
+    int axis = 1;              ///< 0: columns are shifted, 1: rows
+    bool shifts_even = false;  ///< those of even numbers are shifted, and not the odd ones
+    double side = 0;           ///< the length of a hexagon's sides along the axis
+};
+
 struct Map {
     std::uint32_t columns = 0, rows = 0;
     detail::DVec<2> cell{0};
-    bool is_isometric = false;      ///< positions are on the ground, and not on the screen
+    bool is_isometric = false;  ///< positions are on the ground, and not on the screen
+    std::optional<Stagger> stagger = std::nullopt;
     std::vector<Tileset> tilesets;  ///< sorted by first gid
     std::vector<Layer> layers;
 };

@@ -1,4 +1,5 @@
 #include <abut/io/finish_level.hpp>
+#include <abut/io/tiled/grid.hpp>
 #include <abut/io/tiled/read_tiled.hpp>
 #include <abut/io/tiled/tiles.hpp>
 #include <abut/math/dvec.hpp>
@@ -175,8 +176,7 @@ void Builder::tile_layer(const Layer& layer, const std::string& prefix, const DV
     }
     if (own_shapes > 0)
         each_tile([&](std::int64_t column, std::int64_t row, const TileCollision& collision) {
-            const DVec<2> cell(static_cast<double>(column), static_cast<double>(row));
-            const Pose2 place{to_float(offset + cell * map_.cell), {}};
+            const Pose2 place{to_float(offset + cell_position(map_, column, row)), {}};
             for (const PlacedShape& shape : collision.shapes)
                 shapes.push_back({shape.shape, place * shape.pose, shape.filled});
         });

@@ -11,7 +11,8 @@
 
 namespace abut::detail {
 
-/// Reads an orthogonal map, XML or JSON, in pixels with y down: positions equal those that Tiled shows.
+/// Reads a map, XML or JSON, in pixels with y down: positions equal those that Tiled shows. An isometric map is read on
+/// the ground. A full tile of a staggered or hexagonal map is a Polygon.
 /// A tile layer is one object. A tile has the shapes of its tileset's collision editor; if no tileset has collision
 /// shapes, every tile is full. A layer of full, half, slope and one-way tiles (a polyline between corners along an
 /// edge) is a TileMap. Any other layer is a Compound: that TileMap as its first child, then the shapes of the other

@@ -1,3 +1,4 @@
+#include <abut/io/tiled/grid.hpp>
 #include <abut/io/tiled/tiles.hpp>
 #include <abut/math/dvec.hpp>
 
@@ -65,8 +66,14 @@ const std::vector<Kind>& kinds() {
     return all;
 }
 
-// The affine map of the flip flags for a tile of this size; updates the size.
-Affine<2> flipped(std::uint32_t gid, DVec<2>& size) {
+// The affine map of the flip flags for a tile of this size; updates the size. In a hexagonal map two of them are turns
+// by 60 and 120 degrees, after the flips.
+Affine<2> flipped(std::uint32_t gid, bool is_hexagonal, DVec<2>& size) {
+    if (is_hexagonal) {
+        const double angle = ((gid & flip_diagonal) != 0 ? 60 : 0) + ((gid & hexagonal_turn) != 0 ? 120 : 0);
+        const DVec<2> flip((gid & flip_x) != 0 ? -1 : 1, (gid & flip_y) != 0 ? -1 : 1);
+        return translation_by(0.5 * size) * rotation_by(angle) * scaling_by(flip) * translation_by(-0.5 * size);
+    }
     Affine<2> result;
     if ((gid & flip_diagonal) != 0) {
         result.column = {DVec<2>(0, 1), DVec<2>(1, 0)};
@@ -163,13 +170,18 @@ DVec<2> Tiles::size_of(std::uint32_t gid) const {
 
 Result<TileCollision> Tiles::compute_collision(std::uint32_t gid) const {
     const TileData* tile = tile_of(gid);
+    if (!have_shapes_ && map_.stagger) {
+        Result<PlacedShape> outline = place_polyline({}, cell_outline(map_), true, true);
+        if (!outline) return outline.problem();
+        return TileCollision{Tile::empty, {*std::move(outline)}};
+    }
     if (!have_shapes_) return TileCollision{Tile::full, {}};
     if (tile == nullptr || tile->shapes.empty()) return TileCollision{};
     // Shapes are drawn on the picture of the tile, which shows the ground from an angle.
     if (map_.is_isometric) return TileCollision{Tile::full, {}};
     const Tileset& tileset = *tileset_of(gid);
     DVec<2> size = size_of(gid);
-    Affine<2> map = flipped(gid, size);
+    Affine<2> map = flipped(gid, is_hexagonal(), size);
     if (tileset.fills_grid) {
         DVec<2> scale = map_.cell / size;
         if (tileset.keeps_aspect) scale = DVec<2>(std::min(scale.x, scale.y));
@@ -180,7 +192,7 @@ Result<TileCollision> Tiles::compute_collision(std::uint32_t gid) const {
     }
     Result<std::vector<PlacedShape>> shapes = place_all(translation_by(tileset.offset) * map, tile->shapes);
     if (!shapes) return shapes.problem();
-    const Tile kind = kind_of(*shapes, map_.cell);
+    const Tile kind = map_.stagger ? Tile::empty : kind_of(*shapes, map_.cell);
     if (kind != Tile::empty) return TileCollision{kind, {}};
     return TileCollision{Tile::empty, *std::move(shapes)};
 }
@@ -198,7 +210,7 @@ Result<const TileCollision*> Tiles::collision(std::uint32_t gid) {
 Result<std::vector<PlacedShape>> Tiles::shown(std::uint32_t gid, const DVec<2>& size, const Affine<2>& map) const {
     const TileData* tile = tile_of(gid);
     DVec<2> own_size = size_of(gid);
-    const Affine<2> flip = flipped(gid, own_size);
+    const Affine<2> flip = flipped(gid, is_hexagonal(), own_size);
     DVec<2> scale = size / own_size;
     const Tileset* tileset = tileset_of(gid);
     if (tileset != nullptr && tileset->keeps_aspect) scale = DVec<2>(std::min(scale.x, scale.y));

@@ -49,6 +49,7 @@ public:
 private:
     detail::DVec<2> size_of(std::uint32_t gid) const;
     Result<TileCollision> compute_collision(std::uint32_t gid) const;
+    bool is_hexagonal() const { return map_.stagger && map_.stagger->side > 0; }
 
     const Map& map_;
     bool have_shapes_ = false;
