@@ -263,6 +263,22 @@ TEST_F(ToolOnLevels, InfoListsObjects) {
         EXPECT_NE(ran.out.find(line), std::string::npos) << line << ran.out;
 }
 
+// Where four full tiles meet each of them is 0 deep, and the spawn was fine.
+TEST_F(ToolOnLevels, ASpawnWhereTilesMeetIsInThem) {
+    const std::string map =
+        "<map orientation='orthogonal' width='4' height='4' tilewidth='10' tileheight='10'>"
+        "<layer name='G' width='4' height='4'><data encoding='csv'>0,0,0,0,1,1,1,1,1,1,1,1,1,1,1,1</data></layer>"
+        "<objectgroup name='O'><object id='1' name='In' type='spawn' x='20' y='20'><point/></object>"
+        "<object id='2' name='On' type='spawn' x='20' y='10'><point/></object></objectgroup></map>";
+    const Ran ran = run({"check", write("seam.tmx", map).string(), "--json"});
+    EXPECT_EQ(ran.code, 1);
+    const Json spawns = Json::parse(ran.out)["spawns"];
+    ASSERT_EQ(spawns.size(), 1u) << ran.out;
+    EXPECT_EQ(spawns[0]["name"], "O/In");
+    EXPECT_NEAR(spawns[0]["depth"].get<double>(), 10, 0.1);
+    EXPECT_NEAR(spawns[0]["free"][1].get<double>(), 10, 0.1);
+}
+
 TEST_F(ToolOnLevels, BadInputIsNamed) {
     EXPECT_EQ(refusal_of("hex.tmx", "<map orientation='round' tilewidth='1' tileheight='1'/>"),
               "line 1: the map is 'round', which is no orientation that abut knows");

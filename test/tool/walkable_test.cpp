@@ -111,5 +111,18 @@ TEST(Walkable, InThePlane) {
     EXPECT_TRUE(thin.reaches({3, -3}, 0.1));
 }
 
+// Seen from the side, or without walls around: a million places were visited outside, and then all of them counted.
+TEST(Walkable, NotFarOutsideOfALevelInThePlane) {
+    test::PlaneLevel level;
+    level.add_box("ground", {-20, 0}, {20, 2});
+    const FacetTree<2> facets(level.view_of().objects);
+    const std::vector<Vec2> spawn{{0, -1}};
+    const Walkable<2> walkable(facets, {0.4f, 0.8f}, std::nullopt, spawn);
+    EXPECT_TRUE(walkable.is_complete());
+    EXPECT_LT(walkable.size(), 2000u);
+    EXPECT_TRUE(walkable.reaches({-10, -0.5}, 0.1));
+    EXPECT_TRUE(walkable.reaches({10, 2.5}, 0.1)) << "around the end";
+}
+
 }  // namespace
 }  // namespace abut::tool

@@ -53,6 +53,36 @@ bool is_anywhere(const NamedPlace<3>&) {
 }
 
 template <int D>
+struct Exit {
+    float distance = 0;
+    Vec<D> direction{};
+};
+
+// The nearest exit from a point in a body in the plane, of those in the eight directions of a compass that are up to
+// `most` long. `closest` doesn't tell: a body of parts, such as tiles, is 0 deep where they meet.
+Exit<2> nearest_exit(const View<2>& body, const Vec2& point, float least, float most) {
+    Exit<2> best{most, Vec2(1, 0)};
+    for (int i = 0; i < 9; ++i) {
+        if (i == 4) continue;
+        const Vec2 direction = glm::normalize(Vec2(i % 3 - 1, i / 3 - 1));
+        const auto is_inside = [&](float distance) { return contains(body, point + direction * distance); };
+        float inside = 0, outside = least;
+        for (; outside < best.distance && is_inside(outside); outside *= 2) inside = outside;
+        outside = std::min(outside, best.distance);
+        if (is_inside(outside)) continue;
+        for (int k = 0; k < 12; ++k) {
+            const float middle = 0.5f * (inside + outside);
+            (is_inside(middle) ? inside : outside) = middle;
+        }
+        best = {outside, direction};
+    }
+    return best;
+}
+Exit<3> nearest_exit(const View<3>&, const Vec3&, float, float) {
+    return {};
+}
+
+template <int D>
 struct Overlap {
     std::size_t object = 0;
     float depth = 0;
@@ -84,6 +114,7 @@ private:
     Capsule<D> character_at(const Vec<D>& place) const;
     float size() const { return options_.character ? 0.5f * options_.character->height : 0; }
     float allowed(const ViewedObject<D>& object) const;
+    Exit<D> exit_from(const ViewedObject<D>& object, const Vec<D>& middle) const;
     float depth_in(const ViewedObject<D>& object, const Vec<D>& place) const;
     std::optional<Overlap<D>> deepest(const Vec<D>& place) const;
     std::optional<Vec<D>> free_place(const Vec<D>& place) const;
@@ -112,6 +143,11 @@ float SpawnCheck<D>::allowed(const ViewedObject<D>& object) const {
     return options_.allow.value_or(default_allow * smaller);
 }
 
+template <int D>
+Exit<D> SpawnCheck<D>::exit_from(const ViewedObject<D>& object, const Vec<D>& middle) const {
+    return nearest_exit(object.shape, middle, 0.01f * object.radius, 2 * object.radius);
+}
+
 // The depth of a character at a position in an object, minus the penetration that a slope explains.
 template <int D>
 float SpawnCheck<D>::depth_in(const ViewedObject<D>& object, const Vec<D>& place) const {
@@ -130,7 +166,8 @@ float SpawnCheck<D>::depth_in(const ViewedObject<D>& object, const Vec<D>& place
     }
     // A body that contains the whole character has no surface contact.
     if (depth <= 0 && object.filled && contains(object.shape, middle))
-        depth = std::abs(closest(object.shape, middle).distance) + character.radius;
+        depth = character.radius +
+                std::max(std::abs(closest(object.shape, middle).distance), exit_from(object, middle).distance);
     return depth;
 }
 
@@ -155,9 +192,13 @@ Vec<D> SpawnCheck<D>::pushed_out_of(const ViewedObject<D>& object, const Vec<D>&
     const Vec<D> middle = (character.a + character.b) * 0.5f;
     if (!object.filled || !contains(object.shape, middle)) return place;
     const Closest<D> nearest = closest(object.shape, middle);
-    const float separation = std::abs(nearest.distance);
+    float separation = std::abs(nearest.distance);
     // A mesh reports the distance to its surface, and a convex body the separating direction.
-    const Vec<D> outwards = nearest.distance < 0 ? nearest.normal : -nearest.normal;
+    Vec<D> outwards = nearest.distance < 0 ? nearest.normal : -nearest.normal;
+    if (const Exit<D> exit = exit_from(object, middle); exit.distance > separation) {
+        separation = exit.distance;
+        outwards = exit.direction;
+    }
     const float half = glm::length(character.b - character.a) * 0.5f;
     const float along = options_.up && half > 0 ? std::abs(glm::dot(outwards, *options_.up)) * half : 0;
     const float gap = options_.character ? clearance * size() : allowed(object);

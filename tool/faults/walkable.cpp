@@ -30,13 +30,17 @@ Walkable<D>::Walkable(const FacetTree<D>& facets, const Character& character, co
     : facets_(facets),
       radius_(static_cast<double>(character.radius)),
       height_(static_cast<double>(character.height)),
-      step_(climb * height_) {
+      step_(climb * height_),
+      space_(Aabb<D>::empty()) {
     for (int i = 0; up && i < D; ++i)
         if ((*up)[i] != 0) {
             up_axis_ = i;
             sign_ = static_cast<double>((*up)[i]);
         }
     if (has_ground()) up_[up_axis_] = sign_;
+    for (std::size_t i = 0; i < facets_.size(); ++i) space_ = merged(space_, facets_.box(i));
+    for (const Vec<D>& spawn : spawns) space_ = merged(space_, Aabb<D>{spawn, spawn});
+    space_ = grown(space_, 3 * character.radius);
     for (const Vec<D>& spawn : spawns) start(DVec<D>(spawn));
     while (!stack_.empty()) {
         const Place place = stack_.back();
@@ -59,7 +63,8 @@ DVec<D> Walkable<D>::at(const Place& place) const {
 template <int D>
 bool Walkable<D>::fits(const DVec<D>& bottom) const {
     const double radius = radius_ * (1 - thinner);
-    if (!has_ground()) return !facets_.has_within(bottom, radius) && !facets_.is_inside(bottom);
+    if (!has_ground())
+        return contains(space_, to_float(bottom)) && !facets_.has_within(bottom, radius) && !facets_.is_inside(bottom);
     const double high = height_ - radius_, low = std::min(radius_ + step_, high);
     return !facets_.has_within(bottom + up_ * low, bottom + up_ * high, radius) &&
            !facets_.is_inside(bottom + up_ * (0.5 * (low + high)));

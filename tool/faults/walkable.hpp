@@ -56,6 +56,7 @@ private:
 
     const FacetTree<D>& facets_;
     double radius_, height_, step_;
+    Aabb<D> space_;  ///< around the level; a character without ground goes no farther
     int up_axis_ = -1;
     double sign_ = 1;
     DVec<D> up_{0.0};
