@@ -124,7 +124,7 @@ TEST_F(PlantedFaults, ARoomWithoutFaultsIsClean) {
 TEST_F(PlantedFaults, EachIsFoundAlone) {
     const std::map<std::string, std::pair<std::string, std::string>> planted{
         {"contact", {"contacts", "ABUT101"}}, {"between", {"contacts", "ABUT103"}},
-        {"inside", {"contacts", "ABUT101"}},  {"spawn", {"spawns", "ABUT301"}},
+        {"inside", {"contacts", "ABUT201"}},  {"spawn", {"spawns", "ABUT301"}},
         {"gap", {"gaps", "ABUT401"}},         {"duplicate", {"duplicates", "ABUT501"}},
         {"leak", {"leaks", "ABUT601"}},       {"floating", {"floating", "ABUT701"}},
     };

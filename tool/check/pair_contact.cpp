@@ -1,6 +1,8 @@
 #include "tool/check/pair_contact.hpp"
 
 #include <algorithm>
+#include <span>
+#include <variant>
 
 namespace abut::tool {
 namespace {
@@ -38,9 +40,22 @@ bool are_solids(const Object<D>& a, const Object<D>& b) {
     return D == 3 && (a.filled || b.filled) && (a.filled || a.solid) && (b.filled || b.solid);
 }
 
-// True if the surfaces of two overlapping solids don't touch.
+// Whether all corners of a convex body are inside another one, and none on its surface.
+bool holds_all_corners(const ObjectAt<3>& outer, const ObjectAt<3>& inner) {
+    const float least = tolerance * smaller_size(outer.object, inner.object);
+    const auto& convex = std::get<detail::Convex<3>>(inner.placed);
+    const std::span<const Vec3> corners(convex.vertices(), convex.count);
+    return std::all_of(corners.begin(), corners.end(), [&](const Vec3& corner) {
+        const Vec3 point = detail::to_float(convex.place.point(detail::DVec<3>(corner)));
+        return closest(outer.placed, point).distance < -least;
+    });
+}
+
+// True if one of two overlapping bodies contains the other: of convex ones by the corners, else if the surfaces don't
+// touch.
 bool is_inside(const ObjectAt<3>& a, const ObjectAt<3>& b) {
-    return !overlaps(surface_of(a), surface_of(b));
+    if (a.object.solid && b.object.solid) return holds_all_corners(a, b) || holds_all_corners(b, a);
+    return are_solids(a.object, b.object) && !overlaps(surface_of(a), surface_of(b));
 }
 bool is_inside(const ObjectAt<2>&, const ObjectAt<2>&) {
     return false;
@@ -81,7 +96,7 @@ std::optional<PairContact<D>> pair_contact(const ObjectAt<D>& a, const ObjectAt<
         if (is_deep || is_close) {
             PairContact<D> result{-c.depth, allow, c.normal, {}};
             for (const auto& point : c.points) result.points.push_back(point.position);
-            result.inside = is_deep && are_solids(a.object, b.object) && is_inside(a, b);
+            result.inside = is_deep && is_inside(a, b);
             return result;
         }
     }
