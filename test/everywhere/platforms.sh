@@ -22,7 +22,7 @@ TABLE
 # Builds test/everywhere for a platform, in build/everywhere/NAME. The first platform is built as a game builds the library. The
 # others precompile headers, and those that are emulated take -O1: both save compile time.
 everywhere_build() {
-    local name=$1 compiler=$2 folder=build/everywhere/$1 options=() targets=(golden)
+    local name=$1 compiler=$2 folder=build/everywhere/$1 options=() targets=(golden) launcher=ccache
     mkdir -p build/everywhere/headers
     ln -sfn /usr/include/glm /usr/include/hwy build/everywhere/headers/
     case $name in
@@ -33,6 +33,7 @@ everywhere_build() {
             options=(-D "CMAKE_TOOLCHAIN_FILE=$PWD/test/everywhere/clang_cl/toolchain.cmake"
                 -D "ABUT_HEADERS=$PWD/build/everywhere/headers")
             targets=(abut_core abut_bake abut_draw abut_c)
+            launcher=  # ccache writes its options where clang-cl expects files
             ;;
         *)
             options=(-D "CMAKE_TOOLCHAIN_FILE=$PWD/cmake/platforms/$name.cmake" -D "ABUT_HEADERS=$PWD/build/everywhere/headers"
@@ -41,7 +42,7 @@ everywhere_build() {
     esac
     step "building $folder"
     cmake -S test/everywhere -B "$folder" -G Ninja --log-level=NOTICE -D CMAKE_BUILD_TYPE=Release \
-        -D ABUT_WERROR=OFF -D CMAKE_CXX_COMPILER_LAUNCHER=ccache "${options[@]}" >&2 || fail "cmake stopped ($name)"
+        -D ABUT_WERROR=OFF -D "CMAKE_CXX_COMPILER_LAUNCHER=$launcher" "${options[@]}" >&2 || fail "cmake stopped ($name)"
     # Without the sloppiness ccache passes over files that include precompiled headers.
     CCACHE_DEPEND=1 CCACHE_SLOPPINESS=pch_defines,time_macros \
         cmake --build "$folder" --parallel "$(nproc)" --target "${targets[@]}" >&2 || fail "it doesn't build ($name)"
