@@ -97,6 +97,7 @@ metadata/text = "a \"quoted\" [word]
 on two lines = 3"
 
 [node name="Box" type="CollisionShape3D" parent="Floor"]
+transform = Transform3D(1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 0, 0)
 shape = SubResource("box")
 
 [node name="Ball" type="CollisionShape3D" parent="Floor"]
@@ -110,6 +111,9 @@ properties = { "size": Vector3(1, 2, 3), "names": ["}", 2] }
 shape = SubResource("capsule")
 
 [node name="Cylinder" type="CollisionShape3D" parent="Player"]
+position = Vector3(0, 10, 0)
+rotation = Vector3(0, 0, 1.5707963267948966)
+scale = Vector3(1, 3, 1)
 shape = SubResource("cylinder")
 
 [node name="Hull" type="CollisionShape3D" parent="Player"]
@@ -138,10 +142,10 @@ shape = SubResource("box")
     const auto boxes = boxes_of(*scene);
     EXPECT_EQ(boxes.size(), 7u);
     // A quarter turn about y takes x to -z and z to x.
-    expect_box(boxes, "Level/Floor/Box", {8, 19, 29.5f}, {12, 21, 30.5f});
+    expect_box(boxes, "Level/Floor/Box", {8, 19, 28.5f}, {12, 21, 29.5f});
     expect_box(boxes, "Level/Floor/Ball", {9, 24, 29}, {11, 26, 31});
     expect_box(boxes, "Level/Player/Capsule", {-0.25f, -1.5f, -0.25f}, {0.25f, 1.5f, 0.25f});
-    expect_box(boxes, "Level/Player/Cylinder", {-2, -1, -2}, {2, 1, 2});
+    expect_box(boxes, "Level/Player/Cylinder", {-3, 8, -2}, {3, 12, 2});
     expect_box(boxes, "Level/Player/Hull", {0, 0, 0}, {1, 1, 1});
     expect_box(boxes, "Level/Ground/Mesh", {0, 0, 0}, {6, 0, 2});
     expect_box(boxes, "Level/Ground/Heights", {-1, 0, -0.5f}, {1, 2, 0.5f});
@@ -232,6 +236,8 @@ TEST_F(ReadTscn, SaysWhatIsWrongWhere) {
     }};
     for (const auto& [text, message] : cases) EXPECT_EQ(message_of(read_godot(text)), message) << text;
     EXPECT_EQ(message_of(read_godot(head + shape + body)), "has no collision shape of a body in space");
+    EXPECT_EQ(message_of(read_godot(head + shape + "[node name=\"A\" type=\"Area3D\"]\n" + collider)),
+              "has no collision shape of a body in space");
     EXPECT_EQ(message_of(read_godot(head + "[node name=\"A\" type=\"StaticBody2D\"]\n")),
               "is a 2D scene of Godot; 3D ones are read");
     EXPECT_EQ(message_of(read_godot(head + shape + body + collider)), "read");

@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include <glm/gtc/matrix_transform.hpp>
+
 namespace abut::godot {
 namespace {
 
@@ -29,10 +31,29 @@ bool is_true(const Value* value) {
     return value != nullptr && value->text == "true";
 }
 
-/// Transform3D(xx, xy, xz, yx, ...): the rows of the matrix, then the origin.
+/// Three numbers, in files that are written by hand.
+std::optional<glm::dvec3> vector(const Section& node, std::string_view name) {
+    const Value* const value = node.property(name);
+    if (value == nullptr || value->numbers.size() != 3) return std::nullopt;
+    return glm::dvec3(value->numbers[0], value->numbers[1], value->numbers[2]);
+}
+
+/// Transform3D(xx, xy, xz, yx, ...): the rows of the matrix, then the origin. Or else the position, the rotation about
+/// y, x and z, and the scale.
 std::optional<glm::dmat4> transform(const Section& node) {
     const Value* const value = node.property("transform");
-    if (value == nullptr || value->numbers.size() != 12) return std::nullopt;
+    if (value == nullptr || value->numbers.size() != 12) {
+        const auto position = vector(node, "position"), rotation = vector(node, "rotation"),
+                   scale = vector(node, "scale");
+        if (!position && !rotation && !scale) return std::nullopt;
+        glm::dmat4 parts = glm::translate(glm::dmat4(1.0), position.value_or(glm::dvec3(0)));
+        for (const int axis : {1, 0, 2}) {
+            glm::dvec3 about(0);
+            about[axis] = 1;
+            if (rotation) parts = glm::rotate(parts, (*rotation)[axis], about);
+        }
+        return glm::scale(parts, scale.value_or(glm::dvec3(1)));
+    }
     glm::dmat4 result(1.0);
     for (int row = 0; row < 3; ++row) {
         for (int column = 0; column < 3; ++column)
@@ -66,7 +87,8 @@ public:
         const Result<std::uint32_t> root = add_scene(**file, {});
         if (!root) return root.problem();
         for (std::size_t i = 0; i < nodes_.size(); ++i) take_shape(i);
-        if (read_.scene.geometries.empty())
+        const auto collides = [](const SceneNode& node) { return !node.geometries.empty(); };
+        if (std::none_of(read_.scene.nodes.begin(), read_.scene.nodes.end(), collides))
             return Problem{ProblemCode::empty_input, is_flat_ ? "is a 2D scene of Godot; 3D ones are read"
                                                               : "has no collision shape of a body in space"};
         add_warning(files_left_out_, "instance", "of other files than .tscn");
