@@ -57,6 +57,13 @@ public:
         if (has(1, sizeof(T))) take(&value, sizeof(T));
     }
 
+    void serialize(bool& value) {
+        std::uint8_t byte = 0;
+        serialize(byte);
+        good_ = good_ && byte <= 1;
+        value = byte == 1;
+    }
+
     template <class T>
     requires std::is_trivially_copyable_v<T>
     void serialize_all(std::vector<T>& values) {

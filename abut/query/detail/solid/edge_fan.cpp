@@ -23,7 +23,8 @@ EdgeFan EdgeFan::reversed() const {
     EdgeFan result = *this;
     std::swap(result.from, result.to);
     result.is_reversed_ = !is_reversed_;
-    for (FanBlade& blade : result.stored_) std::swap(blade.inside_before, blade.inside_after);
+    for (std::size_t i = 0; i < std::min(count_, stored_.size()); ++i)
+        std::swap(result.stored_[i].inside_before, result.stored_[i].inside_after);
     return result;
 }
 
