@@ -7,6 +7,7 @@
 #include <abut/shape/compound.hpp>
 #include <abut/shape/height_field.hpp>
 #include <abut/shape/tile_map.hpp>
+#include <abut/world/detail/double_positions.hpp>
 #include <abut/world/large_world.hpp>
 
 #include <algorithm>
@@ -187,6 +188,14 @@ TEST(LargeWorld, AnswersFarAwayAreThoseAtTheOrigin) {
         expect_equal_everywhere<2>(seed, 40);
         expect_equal_everywhere<3>(seed, 40);
     }
+}
+
+/// The box of an item that isn't enabled had sides that are no numbers: infinity less infinity.
+TEST(LargeWorld, TheBoxOfNothingIsEmpty) {
+    detail::DoublePositions<2> positions;
+    positions.set(0, {1e7, 3});
+    const Aabb2 box = positions.item_box(0, Aabb2::empty());
+    EXPECT_EQ(box, Aabb2::empty());
 }
 
 /// Two crates 0.1 deep in each other, and a laser that grazes one by 1e-4: floats step by 1 there.

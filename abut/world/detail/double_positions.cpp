@@ -38,6 +38,7 @@ Aabb<D> DoublePositions<D>::item_box(std::uint32_t slot, const Aabb<D>& about_it
 template <int D>
 Aabb<D> DoublePositions<D>::moved_outwards(const Aabb<D>& box, const DVec<D>& offset) {
     constexpr double relative = 0x1p-23, least = 0x1p-149;
+    if (is_empty(box)) return box;  // its sides are infinite
     Aabb<D> result;
     for (int i = 0; i < D; ++i) {
         const double min = static_cast<double>(box.min[i]) + offset[i],
