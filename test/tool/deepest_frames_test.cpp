@@ -56,10 +56,7 @@ Scene tumbling_bodies(std::uint64_t seed, bool grow) {
     for (int i = 0; i < 12; ++i) {
         const auto place = [&] { return random.uniform(-1.2, 1.2); };
         const glm::dvec3 at(place(), place(), place());
-        const std::string name = "Body " + std::to_string(i);
-        const std::uint32_t node = i % 4 == 0 ? test::add_unit_box(scene, name, at)
-                                              : test::add_object(scene, name, test::corner_triangles(0.6f),
-                                                                 glm::translate(glm::dmat4(1.0), at));
+        const std::uint32_t node = test::add_body(scene, "Body " + std::to_string(i), at, i % 4 == 0, 0.6f);
         if (i % 3 != 0) add_tumble(scene, node, random, grow && i % 2 == 0);
     }
     return scene;

@@ -71,4 +71,10 @@ inline Triangles corner_triangles(float edge) {
     return result;
 }
 
+/// A body at a place: a box with edges of length 1, or an L.
+inline std::uint32_t add_body(Scene& scene, const std::string& name, const glm::dvec3& at, bool is_box, float edge) {
+    return is_box ? add_unit_box(scene, name, at)
+                  : add_object(scene, name, corner_triangles(edge), glm::translate(glm::dmat4(1.0), at));
+}
+
 }  // namespace abut::test

@@ -23,10 +23,7 @@ Scene crowd(std::uint64_t seed) {
     for (int i = 0; i < 40; ++i) {
         const auto place = [&] { return random.uniform(-3, 3); };
         const glm::dvec3 at(place(), place(), place());
-        const std::string name = "Body " + std::to_string(i);
-        const std::uint32_t node = i % 5 < 3 ? test::add_unit_box(scene, name, at)
-                                             : test::add_object(scene, name, test::corner_triangles(0.5f),
-                                                                glm::translate(glm::dmat4(1.0), at));
+        const std::uint32_t node = test::add_body(scene, "Body " + std::to_string(i), at, i % 5 < 3, 0.5f);
         if (i % 2 == 0) test::add_slide(scene, node, {place(), place(), place(), place()});
     }
     return scene;

@@ -31,20 +31,12 @@ bool is_true(const Value* value) {
     return value != nullptr && value->text == "true";
 }
 
-/// Three numbers, in files that are written by hand.
-std::optional<glm::dvec3> vector(const Section& node, std::string_view name) {
-    const Value* const value = node.property(name);
-    if (value == nullptr || value->numbers.size() != 3) return std::nullopt;
-    return glm::dvec3(value->numbers[0], value->numbers[1], value->numbers[2]);
-}
-
-/// Transform3D(xx, xy, xz, yx, ...): the rows of the matrix, then the origin. Or else the position, the rotation about
-/// y, x and z, and the scale.
+/// Transform3D(xx, xy, xz, yx, ...): the rows of the matrix, then the origin. Or else, in files that are written
+/// by hand, the position, the rotation about y, x and z, and the scale.
 std::optional<glm::dmat4> transform(const Section& node) {
     const Value* const value = node.property("transform");
     if (value == nullptr || value->numbers.size() != 12) {
-        const auto position = vector(node, "position"), rotation = vector(node, "rotation"),
-                   scale = vector(node, "scale");
+        const auto position = node.vector("position"), rotation = node.vector("rotation"), scale = node.vector("scale");
         if (!position && !rotation && !scale) return std::nullopt;
         glm::dmat4 parts = glm::translate(glm::dmat4(1.0), position.value_or(glm::dvec3(0)));
         for (const int axis : {1, 0, 2}) {

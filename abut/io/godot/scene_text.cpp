@@ -193,6 +193,12 @@ const Value* Section::property(std::string_view name) const {
     return found != properties.end() ? &found->second : nullptr;
 }
 
+std::optional<glm::dvec3> Section::vector(std::string_view name) const {
+    const Value* const value = property(name);
+    if (value == nullptr || value->numbers.size() != 3) return std::nullopt;
+    return glm::dvec3(value->numbers[0], value->numbers[1], value->numbers[2]);
+}
+
 Result<std::vector<Section>> parse(std::string_view text) {
     return Parser(text).parse();
 }

@@ -7,9 +7,12 @@
 #include <cstddef>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include <glm/ext/vector_double3.hpp>
 
 namespace abut::godot {
 
@@ -32,6 +35,8 @@ struct Section {
     std::string_view attribute(std::string_view name) const;
     /// A property, or nullptr.
     const Value* property(std::string_view name) const;
+    /// A property of three numbers.
+    std::optional<glm::dvec3> vector(std::string_view name) const;
 };
 
 /// A Problem names the line.

@@ -22,11 +22,6 @@ std::vector<Vec3> points(const Section& resource, std::string_view name) {
     return result;
 }
 
-Geometry box(const Section& resource) {
-    const std::vector<Vec3> size = points(resource, "size");
-    return detail::box_mesh(size.empty() ? glm::dvec3(1) : glm::dvec3(size[0]));
-}
-
 Geometry triangles(const Section& resource) {
     Geometry mesh;
     mesh.points = points(resource, "data");
@@ -67,7 +62,7 @@ Geometry round_shape(std::string_view type, const Section& resource) {
 std::optional<Geometry> mesh_of_shape(std::string_view type, const Section& resource) {
     Geometry mesh;
     if (type == "BoxShape3D")
-        mesh = box(resource);
+        mesh = detail::box_mesh(resource.vector("size").value_or(glm::dvec3(1)));
     else if (type == "SphereShape3D" || type == "CylinderShape3D" || type == "CapsuleShape3D")
         mesh = round_shape(type, resource);
     else if (type == "ConvexPolygonShape3D")
