@@ -2,6 +2,8 @@
 
 #if __has_include(<EGL/egl.h>) && __has_include(<GLES3/gl3.h>) && __has_include(<dlfcn.h>)
 
+#include <algorithm>
+#include <array>
 #include <utility>
 
 #include <EGL/egl.h>
@@ -67,12 +69,26 @@ std::unique_ptr<GlContext> GlContext::open(GlKind kind, std::string& why) {
         why = "this EGL has no platforms";
         return nullptr;
     }
-    parts->display = get_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
-    EGLint major = 0, minor = 0;
-    if (parts->display == EGL_NO_DISPLAY || !eglInitialize(parts->display, &major, &minor)) {
-        parts->display = EGL_NO_DISPLAY;
-        why = "this EGL can't do without a screen (no EGL_MESA_platform_surfaceless)";
-        return nullptr;
+    // Mesa draws without a screen; the driver of a graphics card may know its devices alone.
+    const auto open_display = [&](EGLenum platform, void* native) {
+        const EGLDisplay display = get_display(platform, native, nullptr);
+        EGLint major = 0, minor = 0;
+        if (display == EGL_NO_DISPLAY || !eglInitialize(display, &major, &minor)) return false;
+        parts->display = display;
+        return true;
+    };
+    if (!open_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY)) {
+        std::array<EGLDeviceEXT, 16> devices{};
+        EGLint count = 0;
+        if (const auto query = parts->gl<PFNEGLQUERYDEVICESEXTPROC>("eglQueryDevicesEXT"); query != nullptr)
+            query(static_cast<EGLint>(devices.size()), devices.data(), &count);
+        const auto end = devices.begin() + count;
+        if (std::none_of(devices.begin(), end,
+                         [&](EGLDeviceEXT device) { return open_display(EGL_PLATFORM_DEVICE_EXT, device); })) {
+            why = "this EGL can't do without a screen: no EGL_MESA_platform_surfaceless, and none of " +
+                  std::to_string(count) + " devices of EGL_EXT_platform_device";
+            return nullptr;
+        }
     }
     const bool es = kind == GlKind::es_3_0;
     const EGLint wanted[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE,
