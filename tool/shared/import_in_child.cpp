@@ -1,5 +1,6 @@
 #include "tool/shared/import_in_child.hpp"
 
+#include "tool/shared/confine.hpp"
 #include "tool/shared/out_of_memory.hpp"
 #include <abut/io/mesh/scene_bytes.hpp>
 
@@ -73,6 +74,7 @@ void send(int pipe, std::span<const std::byte> bytes) {
 [[noreturn]] void import(int pipe, const std::filesystem::path& file, const ReadOptions& options,
                          const ImportLimits& limits) {
     redirect_streams_and_limit(limits);
+    confine(pipe);
     throw_when_out_of_memory();
     try {
         send(pipe, detail::to_bytes(read_scene(file, options)));
