@@ -212,6 +212,32 @@ shape = SubResource("large")
     EXPECT_EQ(boxes_of(*allowed), boxes);
 }
 
+// They were looked for beside the scene that has the instance of the one that names them.
+TEST_F(ReadTscn, NamesAreRelativeToTheFileThatHasThem) {
+    const std::string ball = "[gd_resource type=\"SphereShape3D\" format=3]\n\n[resource]\nradius = 2.0\n";
+    write_below("props/shapes/ball.tres", ball);
+    write_below("props/lamp.tscn", head + R"(
+[ext_resource type="Shape3D" path="shapes/ball.tres" id="1"]
+[node name="Lamp" type="StaticBody3D"]
+[node name="Shape" type="CollisionShape3D" parent="."]
+shape = ExtResource("1")
+)");
+    write_below("props/street.tscn", head + R"(
+[ext_resource type="PackedScene" path="lamp.tscn" id="1"]
+[node name="Street" type="Node3D"]
+[node name="Lamp" parent="." instance=ExtResource("1")]
+)");
+    for (const std::string name : {"props/street.tscn", "res://props/street.tscn", "props/../props/street.tscn"}) {
+        const Result<Scene> scene =
+            read_scene(write_below("town.tscn", head + "[ext_resource path=\"" + name + R"(" id="1"]
+[node name="Town" type="Node3D"]
+[node name="Street" parent="." instance=ExtResource("1")]
+)"));
+        ASSERT_TRUE(scene) << name << ": " << message_of(scene);
+        expect_box(boxes_of(*scene), "Town/Street/Lamp/Shape", {-2, -2, -2}, {2, 2, 2});
+    }
+}
+
 TEST_F(ReadTscn, SaysWhatIsWrongWhere) {
     const std::string shape = "[sub_resource type=\"BoxShape3D\" id=\"b\"]\n";
     const std::string body = "[node name=\"A\" type=\"StaticBody3D\"]\n";

@@ -98,6 +98,7 @@ private:
     };
     /// A file, which may have many instances.
     struct File {
+        std::string folder;  ///< of its name, with a '/'; names in the file are relative to it
         std::vector<Section> sections;
         std::map<std::string, const Section*, std::less<>> own, others;  ///< its resources, and those of other files
         std::map<std::string, std::optional<std::uint32_t>> shapes;      ///< indices of geometries
@@ -119,6 +120,7 @@ private:
             format->second.numbers[0] < 3)
             return Problem{ProblemCode::bad_format, "is a scene of Godot 3 or earlier: save it with Godot 4"};
         File& file = files_by_name_[name];
+        file.folder = name.substr(0, name.rfind('/') + 1);
         file.sections = *std::move(sections);
         for (const Section& section : file.sections) {
             if (section.kind == "sub_resource") file.own.emplace(section.attribute("id"), &section);
@@ -192,7 +194,7 @@ private:
     Result<std::optional<std::uint32_t>> add_instance(const std::string& id, const Place& place, const File& of) {
         const auto found = of.others.find(id);
         if (found == of.others.end()) return Problem{ProblemCode::bad_format, "has an instance of no resource"};
-        const std::string name(found->second->attribute("path"));
+        const std::string name = name_of(*found->second, of);
         if (!name.ends_with(".tscn")) {
             files_left_out_.push_back(name);
             return std::optional<std::uint32_t>();
@@ -255,11 +257,18 @@ private:
     std::optional<Geometry> mesh_of_file(const std::string& id, const File& file) const {
         const auto found = file.others.find(id);
         if (found == file.others.end()) return std::nullopt;
-        const Result<std::vector<std::byte>> bytes = bytes_of(std::string(found->second->attribute("path")));
+        const Result<std::vector<std::byte>> bytes = bytes_of(name_of(*found->second, file));
         if (!bytes) return std::nullopt;
         const Result<std::vector<Section>> sections = parse(text_of(*bytes));
         if (!sections || sections->empty() || sections->back().kind != "resource") return std::nullopt;
         return mesh_of_shape(sections->front().attribute("type"), sections->back());
+    }
+
+    /// The name of a resource of another file, from the folder of the scene that is read.
+    static std::string name_of(const Section& resource, const File& file) {
+        const std::string_view name = resource.attribute("path");
+        const bool is_absolute = name.starts_with('/') || name.find("://") != std::string_view::npos;
+        return (is_absolute ? std::string() : file.folder) + std::string(name);
     }
 
     Result<std::vector<std::byte>> bytes_of(const std::string& name) const {
