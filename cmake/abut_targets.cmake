@@ -38,6 +38,11 @@ function(abut_strict target)
         target_compile_options(${target} PRIVATE /W4 $<$<CXX_COMPILER_ID:MSVC>:/wd5030> $<$<BOOL:${ABUT_WERROR}>:/WX>)
         return()
     endif()
+    # On Windows g++ 12 takes it that all objects have the same code of a header's function, and so which registers it leaves
+    # alone. A game's object without optimisation has other code, and the linker may choose that.
+    if(MINGW)
+        target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fno-ipa-ra>)
+    endif()
     target_compile_options(${target} PRIVATE
         $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize>
         $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-fno-math-errno;-fno-trapping-math>
