@@ -11,13 +11,21 @@ namespace {
 
 std::atomic<std::size_t> count = 0, bytes = 0;
 
+std::size_t size_of(void* memory) {
+#ifdef _WIN32
+    return _msize(memory);
+#else
+    return malloc_usable_size(memory);
+#endif
+}
+
 void* counted(void* memory) {
     ++count;
-    if (memory != nullptr) bytes += malloc_usable_size(memory);
+    if (memory != nullptr) bytes += size_of(memory);
     return memory;
 }
 void release(void* memory) {
-    if (memory != nullptr) bytes -= malloc_usable_size(memory);
+    if (memory != nullptr) bytes -= size_of(memory);
     std::free(memory);
 }
 

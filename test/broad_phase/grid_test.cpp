@@ -95,7 +95,7 @@ TYPED_TEST(Grids, ManyMovingBoxesOnEveryVectorUnit) {
     constexpr int D = dimension_of<TypeParam>;
     oracle::Random random(17);
     auto boxes = make_scene<D>(Scene::uniform, 6000, random);
-    const auto units = hwy::SupportedAndGeneratedTargets();
+    const auto units = oracle::supported_simd_targets();
     std::vector<Grid<D>> grids(units.size());
     for (int frame = 0; frame < 12; ++frame) {
         move_some(boxes, random);

@@ -20,11 +20,16 @@ TABLE
 }
 
 # Builds test/everywhere for a platform, in build/everywhere/NAME. The first platform is built as a game builds the library. The
-# others precompile headers, and those that are emulated take -O1: both save compile time.
+# others precompile headers, and those that are emulated take -O1: both save compile time. With the word "tests" it builds the test
+# programs as well.
 everywhere_build() {
-    local name=$1 compiler=$2 folder=build/everywhere/$1 options=() targets=(golden) launcher=ccache
+    local name=$1 compiler=$2 folder=build/everywhere/$1 options=() targets=(golden) launcher=ccache with_tests=OFF
+    if [ "${3:-}" = tests ]; then
+        with_tests=ON
+        targets+=(test_programs)
+    fi
     mkdir -p build/everywhere/headers
-    ln -sfn /usr/include/glm /usr/include/hwy build/everywhere/headers/
+    ln -sfn /usr/include/{glm,hwy,boost} build/everywhere/headers/
     case $name in
         x86_64-*-O0) options=(-D "CMAKE_CXX_COMPILER=${compiler% *}" -D "CMAKE_CXX_FLAGS_RELEASE=-O0" -D ABUT_PRECOMPILE=ON) ;;
         x86_64-gcc) options=(-D "CMAKE_CXX_COMPILER=$compiler") ;;
@@ -42,7 +47,7 @@ everywhere_build() {
     esac
     step "building $folder"
     cmake -S test/everywhere -B "$folder" -G Ninja --log-level=NOTICE -D CMAKE_BUILD_TYPE=Release \
-        -D ABUT_WERROR=OFF -D "CMAKE_CXX_COMPILER_LAUNCHER=$launcher" "${options[@]}" >&2 || fail "cmake stopped ($name)"
+        -D ABUT_WERROR=OFF -D ABUT_TESTS=$with_tests -D "CMAKE_CXX_COMPILER_LAUNCHER=$launcher" "${options[@]}" >&2 || fail "cmake stopped ($name)"
     # Without the sloppiness ccache passes over files that include precompiled headers.
     CCACHE_DEPEND=1 CCACHE_SLOPPINESS=pch_defines,time_macros \
         cmake --build "$folder" --parallel "$(nproc)" --target "${targets[@]}" >&2 || fail "it doesn't build ($name)"
@@ -96,4 +101,39 @@ everywhere_row() {
     ! everywhere_run "$name" "$with" "${arguments[@]}" --load build/everywhere/blobs >&2 || loads=same
     printf '%-16s %-30s %-22s %5d.%d  %-16s  %s\n' "$name" "$compiler" "${with:-native}${target:+ $target}" \
         $((seconds / 10)) $((seconds % 10)) "$hash" "$loads"
+}
+
+# The names of the tests of a program that took longer than a number of seconds in the last tests of build/release, for
+# --gtest_filter. Those of a template have a type in their name there, and a number in the program.
+everywhere_slow_tests() {
+    awk -v program="$1" -v limit="$2" '
+        $1 ~ /\// && $2 == "Test" && $NF == "sec" && $(NF - 1) > limit {
+            name = $3 ~ /:$/ ? $4 : $5
+            if (index(name, program ".") != 1) next
+            name = substr(name, length(program) + 2)
+            if (sub(/<.*>/, "", name)) sub(/[.]/, "/*.", name)
+            print name
+        }' build/release/test.log | paste -sd:
+}
+
+# Runs the test programs of a platform, without the tests that would take too long there, and adds a row to the table of ./dev.
+everywhere_tests() {
+    local name=$1 with=$2 limit=$3 folder=build/everywhere/$1 start=$EPOCHSECONDS program log run skipped
+    rm -rf "$folder/test-logs"
+    mkdir -p "$folder/test-logs"
+    step "testing $folder: what took less than $limit s on this machine"
+    for program in "$folder"/abut/test/test_*; do
+        [ -x "$program" ] && [[ $program == *.exe || $program != *.* ]] || continue
+        log=$(basename "$program" .exe)
+        printf '%s\0' "$program" "$folder/test-logs/$log" "-$(everywhere_slow_tests "${log#test_}" "$limit")"
+    done | WINEDEBUG=-all xargs -0 -n 3 -P "$(nproc)" bash -c "$with"' "$1" --gtest_brief=1 --gtest_filter="$3" >"$2" 2>&1 || touch "$2.failed"' _
+    for log in "$folder"/test-logs/*.failed; do
+        [ -e "$log" ] || break
+        cat "${log%.failed}" >&2
+        fail "$(basename "$log" .failed) on $name"
+    done
+    run=$(awk '/^\[=+\] [0-9]+ tests? from .* ran/ { sum += $2 } END { print sum + 0 }' "$folder"/test-logs/*)
+    skipped=$(awk '/^\[  SKIPPED \] [0-9]+ test/ { sum += $4 } END { print sum + 0 }' "$folder"/test-logs/*)
+    count=$((count + run))
+    add_row "$name" "$run" "$skipped" $((EPOCHSECONDS - start))
 }

@@ -223,10 +223,10 @@ void check_levels(std::uint32_t kind, int rounds) {
     }
     // Most of the deepest contacts have surface normals.
     EXPECT_GT(touches.deepest, 0.5 * touches.contacts) << touches.contacts;
-    // The sample is not vacuous: each answer occurs.
+    // The sample is not vacuous: each answer occurs. Compilers draw the arguments of a call in different orders, so the
+    // sample differs: of 200 solids 170 overlapped on AArch64.
     for (const int part : {touches.overlapping, touches.contacts, sweeps.hits})
-        EXPECT_TRUE(part > 0.15 * touches.samples && part < 0.85 * touches.samples)
-            << part << " of " << touches.samples;
+        EXPECT_TRUE(part > 0.1 * touches.samples && part < 0.9 * touches.samples) << part << " of " << touches.samples;
     EXPECT_TRUE(rays.hits > 0.2 * 4 * rounds && rays.hits < 0.95 * 4 * rounds) << rays.hits << " of " << 4 * rounds;
 }
 

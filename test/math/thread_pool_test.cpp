@@ -14,6 +14,7 @@
 #include <gtest/gtest.h>
 
 #ifdef __linux__
+#include <sys/mman.h>
 #include <sys/resource.h>
 #endif
 
@@ -103,7 +104,9 @@ TEST(ThreadPool, TakesFewerThreadsIfTheSystemRefusesMore) {
         ThreadPool pool(500);
         std::atomic<std::uint32_t> runs = 0;
         pool.run(1000, [&](std::uint32_t) { ++runs; });
-        std::_Exit(runs == 1000 && pool.workers() < 500 ? 0 : 2);
+        // An emulator may let a process have more than its limit.
+        void* const beyond = mmap(nullptr, 2 * limit.rlim_cur, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+        std::_Exit(runs == 1000 && (pool.workers() < 500 || beyond != MAP_FAILED) ? 0 : 2);
     };
     EXPECT_EXIT(run_with_little_memory(), testing::ExitedWithCode(0), "");
 }
