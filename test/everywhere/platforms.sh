@@ -111,7 +111,7 @@ everywhere_slow_tests() {
             name = $3 ~ /:$/ ? $4 : $5
             if (index(name, program ".") != 1) next
             name = substr(name, length(program) + 2)
-            if (sub(/<.*>/, "", name)) sub(/[.]/, "/*.", name)
+            if (sub(/<.*/, "", name)) sub(/[.]/, "/*.", name)
             print name
         }' build/release/test.log | paste -sd:
 }
@@ -119,6 +119,7 @@ everywhere_slow_tests() {
 # Runs the test programs of a platform, without the tests that would take too long there, and adds a row to the table of ./dev.
 everywhere_tests() {
     local name=$1 with=$2 limit=$3 folder=build/everywhere/$1 start=$EPOCHSECONDS program log run skipped
+    [ -s build/release/test.log ] || fail "build/release has no log of tests, which says how long each takes: run ./dev test"
     rm -rf "$folder/test-logs"
     mkdir -p "$folder/test-logs"
     step "testing $folder: what took less than $limit s on this machine"
