@@ -22,8 +22,8 @@
 namespace abut::tool {
 namespace {
 
-void close_all_but(int kept) {
-    const auto first = static_cast<unsigned>(STDERR_FILENO + 1), middle = static_cast<unsigned>(kept);
+void close_all_but(int pipe) {
+    const auto first = static_cast<unsigned>(STDERR_FILENO + 1), middle = static_cast<unsigned>(pipe);
 #if defined(SYS_close_range)
     if ((middle == first || syscall(SYS_close_range, first, middle - 1, 0) == 0) &&
         syscall(SYS_close_range, middle + 1, ~0u, 0) == 0)
@@ -31,7 +31,7 @@ void close_all_but(int kept) {
 #endif
     constexpr int usual_limit = 1024;
     for (int descriptor = STDERR_FILENO + 1; descriptor < usual_limit; ++descriptor)
-        if (descriptor != kept) close(descriptor);
+        if (descriptor != pipe) close(descriptor);
 }
 
 #if defined(ABUT_FILTERS_CALLS)
@@ -118,8 +118,8 @@ bool filter_calls() {
 
 }  // namespace
 
-bool confine(int kept) {
-    close_all_but(kept);
+bool confine(int pipe) {
+    close_all_but(pipe);
     const rlimit none{0, 0};
     setrlimit(RLIMIT_FSIZE, &none);
     return filter_calls();

@@ -6,8 +6,8 @@ namespace abut::tool {
 
 /// From now on this process can't write, create, rename or remove a file, start a process or a program, open a socket
 /// or trace another process: the system refuses such calls. Of its open descriptors it keeps the standard streams and
-/// `kept`. Returns false where the system can't filter calls (other than Linux on x86-64 and AArch64, or a container
+/// `pipe`. Returns false where the system can't filter calls (other than Linux on x86-64 and AArch64, or a container
 /// that forbids it); then a file that is written has the size 0, and the rest is possible.
-bool confine(int kept);
+bool confine(int pipe);
 
 }  // namespace abut::tool
