@@ -75,15 +75,15 @@ std::size_t argument(std::size_t i) {
 /// A program for the system: it reads the number of a call and the flags of those that open files.
 std::vector<sock_filter> filter() {
     std::vector<sock_filter> program;
-    const auto where_it_is = [&](auto number, const std::vector<sock_filter>& then) {
+    const auto at_call = [&](auto number, const std::vector<sock_filter>& then) {
         program.push_back(BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, static_cast<std::uint32_t>(number), 0,
                                    static_cast<std::uint8_t>(then.size())));
         program.insert(program.end(), then.begin(), then.end());
     };
     const auto refuse_writing = [&](auto number, std::size_t flags) {
         constexpr std::uint32_t writing = O_WRONLY | O_RDWR | O_CREAT | O_TRUNC;
-        where_it_is(number, {load(argument(flags)), BPF_JUMP(BPF_JMP | BPF_JSET | BPF_K, writing, 0, 1), fail(EPERM),
-                             answer(SECCOMP_RET_ALLOW)});
+        at_call(number, {load(argument(flags)), BPF_JUMP(BPF_JMP | BPF_JSET | BPF_K, writing, 0, 1), fail(EPERM),
+                         answer(SECCOMP_RET_ALLOW)});
     };
     program.push_back(load(offsetof(seccomp_data, arch)));
     program.push_back(BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, architecture, 1, 0));
@@ -96,8 +96,8 @@ std::vector<sock_filter> filter() {
     refuse_writing(SYS_open, 1);
 #endif
     refuse_writing(SYS_openat, 2);
-    for (const auto number : refused) where_it_is(number, {fail(EPERM)});
-    for (const auto number : unknown) where_it_is(number, {fail(ENOSYS)});
+    for (const auto number : refused) at_call(number, {fail(EPERM)});
+    for (const auto number : unknown) at_call(number, {fail(ENOSYS)});
     program.push_back(answer(SECCOMP_RET_ALLOW));
     return program;
 }
