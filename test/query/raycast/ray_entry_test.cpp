@@ -231,7 +231,12 @@ TEST(RayEntry, NamesTheFaceItComesThrough) {
 TEST(RayEntry, SearchesDontStepThroughANearlyFlatHull) {
     Said said;
     for (const int seed : {9898, 10957, 13820, 14123, 14757}) check_styled_shape<3>(corpus::Style{2}, seed, said);
-    EXPECT_GT(said.hits, 0);  // 5 or more where arguments are evaluated from the right, as by g++ on x86-64
+#if defined(__x86_64__) && defined(__linux__) && !defined(__clang__)
+    // Elsewhere arguments are evaluated in another order, so the seeds make other hulls.
+    EXPECT_GT(said.hits, 4);
+#else
+    EXPECT_GT(said.hits, 0);
+#endif
 }
 
 TEST(RayEntry, MeetsAFlatHullFromBothSides) {
