@@ -3,6 +3,7 @@
 #include <abut/bake/field/grid.hpp>
 #include <abut/bake/field/isosurface.hpp>
 #include <abut/math/dvec.hpp>
+#include <abut/math/simd/square_root.hpp>
 
 #include <algorithm>
 #include <array>
@@ -97,7 +98,7 @@ float extra_band_in_cells(const Field<D>& field, const Field<D>* other, float ce
         if (one == nullptr) continue;
         const double cells = static_cast<double>(one->cell() / cell);
         const bool far = shifts && one->data().store == FieldStore::sparse;
-        result = std::max(result, cells * (far ? std::sqrt(static_cast<double>(D)) * 0.5 * brick_cells<D> : 1.0));
+        result = std::max(result, cells * (far ? square_root(static_cast<double>(D)) * 0.5 * brick_cells<D> : 1.0));
     }
     return static_cast<float>(std::ceil(result));
 }

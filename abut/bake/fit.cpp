@@ -32,7 +32,7 @@ Excess excess(const Polyhedron& part, const Capsule<3>& capsule) {
 }
 
 Excess excess(const Polyhedron& part, const Box<3>& box) {
-    const glm::dquat turn = glm::normalize(glm::dquat(box.rotation));
+    const glm::dquat turn = normalized(glm::dquat(box.rotation));
     const DVec<3> half(box.half), center(box.center);
     Excess result;
     for (const Vec3& corner : part.points()) {

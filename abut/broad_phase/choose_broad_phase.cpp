@@ -2,10 +2,10 @@
 #include <abut/broad_phase/choose_broad_phase.hpp>
 #include <abut/broad_phase/grid/cell_size.hpp>
 #include <abut/math/simd/library_entry.hpp>
+#include <abut/math/simd/square_root.hpp>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 
 namespace abut {
@@ -65,7 +65,7 @@ BroadPhaseKind choose_broad_phase(std::span<const Aabb<D>> boxes, const BroadPha
     if (history.queries * grid_query_overhead > tree_update_overhead) return BroadPhaseKind::bvh;
     if (static_cast<double>(count) <= max_pairs_per_cell) return BroadPhaseKind::grid;  // even if all share a cell
     // With this sample size, about a thousand pairs of the sample share a cell if the limit is reached.
-    const auto sufficient = static_cast<std::size_t>(2 * std::sqrt(static_cast<double>(count)));
+    const auto sufficient = static_cast<std::size_t>(2 * detail::square_root(static_cast<double>(count)));
     std::array<Aabb<D>, sample_size> sample;
     const std::size_t sample_count = std::min(sufficient, sample_size);
     for (std::size_t i = 0; i < sample_count; ++i) sample[i] = boxes[i * count / sample_count];

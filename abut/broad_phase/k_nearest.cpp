@@ -1,5 +1,6 @@
 #include <abut/broad_phase/k_nearest.hpp>
 #include <abut/broad_phase/reach.hpp>
+#include <abut/math/simd/square_root.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +24,7 @@ float NearestItems<D>::offer(std::uint32_t item, const Aabb<D>& box) {
     if (k_ == 0) return -1;
     double squared = 0;
     BoxReach<D>({point_, point_}, infinity).measure(box, squared);
-    const NearItem offered{static_cast<float>(std::sqrt(squared)), item};
+    const NearItem offered{static_cast<float>(square_root(squared)), item};
     if (out_.size() == k_) {
         if (!(offered < out_.front())) return infinity;
         std::pop_heap(out_.begin(), out_.end());

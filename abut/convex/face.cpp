@@ -1,5 +1,6 @@
 #include <abut/convex/face.hpp>
 #include <abut/convex/farthest_point.hpp>
+#include <abut/math/simd/square_root.hpp>
 
 namespace abut::detail {
 namespace {
@@ -112,7 +113,7 @@ Face<3> discs_face_along(const Convex<3>& convex, const DVec<3>& direction) {
     if (std::abs(along) >= aligned && (at_b ? radius_b : radius_a) > 0) {
         // Eight directions by bisecting right angles: the ring has the same bits on every machine.
         const DVec<3> x = perpendicular(u), y = cross(u, x);
-        const double diagonal = std::sqrt(0.5);
+        const double diagonal = square_root(0.5);
         const DVec<3> ring[8] = {x,  (x + y) * diagonal,  y,  (y - x) * diagonal,
                                  -x, -(x + y) * diagonal, -y, (x - y) * diagonal};
         std::uint32_t index = 0;
@@ -124,7 +125,7 @@ Face<3> discs_face_along(const Convex<3>& convex, const DVec<3>& direction) {
     const DVec<3> rim = normalized(local - u * along, DVec<3>(0.0));
     const DVec<3> low = a + rim * radius_a, high = b + rim * radius_b;
     const DVec<3> side = normalized(high - low, u);
-    if (std::abs(dot(side, local)) > std::sqrt(1 - aligned * aligned)) return corner(convex, direction);
+    if (std::abs(dot(side, local)) > square_root(1 - aligned * aligned)) return corner(convex, direction);
     face.push_back(convex.place.point(low), 0);
     face.push_back(convex.place.point(high), 1);
     return face;
@@ -150,7 +151,7 @@ void thin_to_edge(Face<3>& face) {
     double widest_squared = 0;
     for (std::size_t i = 0; i < face.count; ++i)
         widest_squared = std::max(widest_squared, length_squared(cross(along, face.points[i] - face.points[a])));
-    if (std::sqrt(widest_squared) > 1e-6 * length_squared(along)) return;
+    if (square_root(widest_squared) > 1e-6 * length_squared(along)) return;
     Face<3> edge;
     edge.push_back(face.points[a], face.indices[a]);
     if (a != b) edge.push_back(face.points[b], face.indices[b]);

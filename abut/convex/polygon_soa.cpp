@@ -1,4 +1,5 @@
 #include <abut/convex/polygon_soa.hpp>
+#include <abut/math/simd/square_root.hpp>
 
 #include <limits>
 
@@ -15,7 +16,7 @@ void write_polygon_soa(std::span<const Vec2> points, double* numbers) {
     for (std::uint32_t i = 0; i < count; ++i) {
         const DVec<2> to(points[i + 1 == count ? 0 : i + 1]), edge = to - from;
         // In double no square of a difference of floats overflows or underflows.
-        const double part = 1 / std::sqrt(dot(edge, edge));
+        const double part = 1 / square_root(dot(edge, edge));
         const DVec<2> normal(edge.y * part, -edge.x * part);
         const double row[] = {from.x, from.y, normal.x, normal.y, dot(normal, from)};
         for (std::uint32_t k = 0; k < soa_rows; ++k) at(i, k) = row[k];

@@ -3,6 +3,7 @@
 #include <abut/convex/support.hpp>
 #include <abut/math/assert.hpp>
 #include <abut/math/detail/round_outwards.hpp>
+#include <abut/math/simd/square_root.hpp>
 
 namespace abut::detail {
 namespace {
@@ -57,7 +58,7 @@ DVec<3> farthest_on_discs(const Convex<3>& convex, const DVec<3>& direction) {
     // A vector r that is nothing but rounding would lead off the disc. With few digits left it is orthogonalised once
     // more.
     if (rr > 1e-18 * dd) {
-        reach = std::sqrt(rr);
+        reach = square_root(rr);
         rim = r / reach;
         if (rr < 1e-4 * dd) rim = normalized(rim - w * (dot(w, rim) / ww));
     }
@@ -140,7 +141,7 @@ Placement<D> mapped(const Placement<D>& placement, const Affine<D>& map) {
     Placement<D> result = placement;
     result.place = map * placement.place;
     if (similar) {
-        const double factor = std::sqrt(factor_squared);
+        const double factor = square_root(factor_squared);
         result.scale *= factor;
         result.radius *= factor;
         return result;

@@ -1,5 +1,6 @@
 #include <abut/draw/convex.hpp>
 #include <abut/draw/distance_function.hpp>
+#include <abut/math/simd/square_root.hpp>
 #include <abut/query/detail/sdf/placed_function.hpp>
 #include <abut/shape/view/view.hpp>
 
@@ -104,7 +105,7 @@ void draw_function(Canvas<D>& canvas, const DistanceFunction<D>& function, const
         low[i] -= 0.5 * (cells[i] * cell - side[i]);
     }
     const PlacedFunction<D> function_view(function);
-    const double reach = function_view.slope() * std::sqrt(static_cast<double>(D)) * cell;
+    const double reach = function_view.slope() * square_root(static_cast<double>(D)) * cell;
     glm::vec<D, int> at(0);
     for (;;) {
         DVec<D> corner = low;

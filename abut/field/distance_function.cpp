@@ -4,6 +4,7 @@
 #include <abut/field/cells.hpp>
 #include <abut/field/field.hpp>
 #include <abut/field/field_extended.hpp>
+#include <abut/math/simd/square_root.hpp>
 
 #include <optional>
 
@@ -24,7 +25,7 @@ std::optional<double> first_at_most_zero(const std::array<double, 4>& at) {
     std::size_t count = 1;
     const double a = 3 * c3, b = 2 * c2, root = b * b - 4 * a * c1;
     if (root > 0) {
-        const double q = -0.5 * (b + (b < 0 ? -std::sqrt(root) : std::sqrt(root)));
+        const double q = -0.5 * (b + (b < 0 ? -square_root(root) : square_root(root)));
         double first = q != 0 ? c1 / q : 2, second = a != 0 ? q / a : 2;
         if (second < first) std::swap(first, second);
         for (const double extremum : {first, second})
@@ -66,7 +67,7 @@ public:
         std::int64_t max_steps = 256;
         for (int a = 0; a < D; ++a) max_steps += 4 * (static_cast<std::int64_t>(data_.cells[a]));
         const auto cell = static_cast<double>(data_.cell);
-        const double max_slope = std::sqrt(static_cast<double>(D));
+        const double max_slope = square_root(static_cast<double>(D));
         double along = 0;
         for (std::int64_t i = 0; i < max_steps; ++i) {
             const DVec<D> place = origin_ + direction_ * along;

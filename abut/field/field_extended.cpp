@@ -1,6 +1,7 @@
 #include <abut/field/cells.hpp>
 #include <abut/field/field_extended.hpp>
 #include <abut/field/smooth_pieces.hpp>
+#include <abut/math/simd/square_root.hpp>
 
 #include <limits>
 
@@ -34,7 +35,7 @@ double distance_and(const FieldData<D>& data, const DVec<D>& point, DVec<D>* gra
     // Solid as far as is known; else the volume cuts the solid, which ends with it.
     const bool is_solid = there < 0 && holds_surface(data);
     const double sign = is_solid ? -1 : 1, beyond = std::max(sign * there, 0.0);
-    double result = std::sqrt(length_squared(away) + beyond * beyond);
+    double result = square_root(length_squared(away) + beyond * beyond);
     if (gradient != nullptr)
         for (int a = 0; a < D; ++a)
             (*gradient)[a] = away[a] != 0 ? away[a] / result : sign * (*gradient)[a] * (beyond / result);
@@ -282,7 +283,7 @@ private:
             nearest += (std::abs(away[a]) - half[a]) * (std::abs(away[a]) - half[a]);
         }
         const double far = length(away), at_near = std::max(values_around(data_, near).at(near), 0.0);
-        const double both = std::sqrt(far * far + at_near * at_near);
+        const double both = square_root(far * far + at_near * at_near);
         const double c = both > 0 ? far / both : 1, s = both > 0 && at_near > 1e-3 * both ? at_near / both : 0;
         const DVec<D> out = far > 0 ? away / far : DVec<D>(0.0);
         // Along the border what is wanted of the whole is wanted of the distances there.
@@ -295,7 +296,7 @@ private:
         const AbovePlanes<D> border =
             above_samples(near_low, near_high, near, along_border(own_), along_border(wanted_));
         const double at_least = std::max(border.least, 0.0);
-        double least = std::sqrt(nearest + at_least * at_least);
+        double least = square_root(nearest + at_least * at_least);
         DVec<D> from_surface(0.0);
         const bool has_surface = way_from_surface(data_, center, from_surface);
         const double to_surface = has_surface ? length(from_surface) : 0;
@@ -329,7 +330,7 @@ private:
             const double gap = std::max({below, above, 0.0});
             squares += gap * gap;
         }
-        return std::sqrt(squares);
+        return square_root(squares);
     }
 
     /// In a box of the volume, which may be flat, grid by grid; all in cells, gradients in lengths.
@@ -433,7 +434,7 @@ DistanceBoundStatus extended_bound(const FieldData<D>& data, const DVec<D>& low,
 
 template <int D>
 float extended_slope(const FieldData<D>& data) {
-    return std::sqrt(static_cast<float>(D)) * (1 + data.step / data.cell);
+    return square_root(static_cast<float>(D)) * (1 + data.step / data.cell);
 }
 
 template <int D>

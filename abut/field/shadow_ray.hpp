@@ -4,10 +4,10 @@
 
 #include <abut/field/data.hpp>
 #include <abut/math/dvec.hpp>
+#include <abut/math/simd/square_root.hpp>
 #include <abut/math/vec.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 
 namespace abut::detail {
@@ -105,7 +105,8 @@ public:
 
     float light(float softness) const {
         if (dark_) return 0;
-        const double minimum = std::min(std::sqrt(slopes_.minimum()), at_light_), soft = static_cast<double>(softness);
+        const double minimum = std::min(square_root(slopes_.minimum()), at_light_),
+                     soft = static_cast<double>(softness);
         if (!(minimum < soft)) return 1;
         const double fraction = minimum / soft;
         return static_cast<float>(fraction * fraction * (3 - 2 * fraction));

@@ -5,6 +5,7 @@
 
 #include <abut/field/cells.hpp>
 #include <abut/field/field_extended.hpp>
+#include <abut/math/simd/square_root.hpp>
 #include <abut/shape/view/distance_function.hpp>
 
 #include <algorithm>
@@ -64,7 +65,7 @@ bool continue_corners(const FieldData<D>& data, const CellValues<D>& values, con
     bool is_solid = there < 0;
     for (const double value : bound.corners) is_solid = is_solid || value < 0;
     if (is_solid && holds_surface(data)) return false;
-    const double here = std::sqrt(length_squared(away) + beyond * beyond);
+    const double here = square_root(length_squared(away) + beyond * beyond);
     DVec<D> from_surface(0.0);
     const double to_surface = way_from_surface(data, anchor, from_surface) ? length(from_surface) : 0;
     const bool is_far = to_surface > here;

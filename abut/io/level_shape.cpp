@@ -2,6 +2,7 @@
 #include <abut/math/detail/sin_cos.hpp>
 #include <abut/math/dvec.hpp>
 #include <abut/math/predicates.hpp>
+#include <abut/math/simd/square_root.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -58,7 +59,7 @@ Box2 box(const Affine<2>& map, const DVec<2>& size) {
 // Count of segments of equal angle that approximate an arc.
 std::size_t arc_segments(double radius, double angle, double tolerance) {
     // A chord over the angle a deviates from its arc by radius * (1 - cos(a / 2)) <= radius * a^2 / 8.
-    const double segments = std::ceil(std::abs(angle) * std::sqrt(radius / (8 * tolerance)));
+    const double segments = std::ceil(std::abs(angle) * square_root(radius / (8 * tolerance)));
     return static_cast<std::size_t>(std::clamp(segments, 1.0, max_arc_segments));
 }
 
@@ -187,7 +188,7 @@ Result<PlacedShape> place_ellipse(const Affine<2>& map, const DVec<2>& radii) {
     // The half axes are the eigenvectors of M M^T; their lengths are the square roots of the eigenvalues.
     const double p = u.x * u.x + v.x * v.x, q = u.x * u.y + v.x * v.y, r = u.y * u.y + v.y * v.y;
     const double longer = 0.5 * (p + r) + length(DVec<2>(0.5 * (p - r), q));
-    const double half = std::sqrt(longer), other = std::abs(cross(u, v)) / half;
+    const double half = square_root(longer), other = std::abs(cross(u, v)) / half;
     if (!(static_cast<float>(other) > 0)) return degenerate_problem("an ellipse without an area");
     const DVec<2> along = normalized(p >= r ? DVec<2>(longer - r, q) : DVec<2>(q, longer - p));
     const Pose2 pose{middle, {static_cast<float>(along.x), static_cast<float>(along.y)}};

@@ -3,6 +3,7 @@
 // Arithmetic on double vectors, for .cpp files. Written out term by term, since the order of operations affects the
 // bits of the result.
 
+#include <abut/math/simd/square_root.hpp>
 #include <abut/math/vec.hpp>
 
 #include <algorithm>
@@ -31,7 +32,7 @@ double length_squared(const glm::vec<D, double>& v) {
 
 template <int D>
 double length(const glm::vec<D, double>& v) {
-    return std::sqrt(dot(v, v));
+    return square_root(dot(v, v));
 }
 
 /// The largest absolute coordinate.
@@ -62,7 +63,7 @@ glm::vec<D, double> axis(int i, double sign = 1) {
 template <int D>
 glm::vec<D, double> normalized(const glm::vec<D, double>& v, const glm::vec<D, double>& otherwise = axis<D>(0)) {
     const double squared = dot(v, v);
-    if (squared > 1e-200 && squared < 1e200) return v / std::sqrt(squared);
+    if (squared > 1e-200 && squared < 1e200) return v / square_root(squared);
     const double scale = largest<D>(v);
     if (!(scale > 0)) return otherwise;
     const glm::vec<D, double> u = v / scale;
@@ -75,7 +76,7 @@ template <int D>
 glm::vec<D, double> unit(const glm::vec<D, double>& v) {
     const double square = dot(v, v), excess = square - 1;
     if (std::abs(excess) < 1e-5) return v * (1 - excess * (0.5 - 0.375 * excess));
-    return square == 0 ? axis<D>(0) : v * (1 / std::sqrt(square));
+    return square == 0 ? axis<D>(0) : v * (1 / square_root(square));
 }
 
 /// The least and the greatest coordinate on every axis.

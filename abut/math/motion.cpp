@@ -2,6 +2,7 @@
 #include <abut/math/detail/set_affine.hpp>
 #include <abut/math/motion.hpp>
 #include <abut/math/simd/library_entry.hpp>
+#include <abut/math/simd/square_root.hpp>
 
 #include <glm/ext/quaternion_double.hpp>
 
@@ -101,7 +102,7 @@ Pose3 pose_at(const Motion3& motion, float fraction) {
         half.cos * q.w - (v.x * q.x + v.y * q.y + v.z * q.z), half.cos * q.x + v.x * q.w + (v.y * q.z - v.z * q.y),
         half.cos * q.y + v.y * q.w + (v.z * q.x - v.x * q.z), half.cos * q.z + v.z * q.w + (v.x * q.y - v.y * q.x));
     const double norm =
-        std::sqrt(turned.w * turned.w + turned.x * turned.x + turned.y * turned.y + turned.z * turned.z);
+        square_root(turned.w * turned.w + turned.x * turned.x + turned.y * turned.y + turned.z * turned.z);
     if (norm > 0) turned = {turned.w / norm, turned.x / norm, turned.y / norm, turned.z / norm};
     return {to_float(path.pivot(time)), glm::quat(turned)};
 }

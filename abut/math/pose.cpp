@@ -3,6 +3,7 @@
 #include <abut/math/detail/sin_cos.hpp>
 #include <abut/math/pose.hpp>
 #include <abut/math/simd/library_entry.hpp>
+#include <abut/math/simd/square_root.hpp>
 
 #include <glm/ext/quaternion_double.hpp>
 
@@ -30,7 +31,7 @@ namespace {
 
 glm::dquat unit(const glm::quat& q) {
     const glm::dquat d(q);
-    const double norm = std::sqrt(d.w * d.w + d.x * d.x + d.y * d.y + d.z * d.z);
+    const double norm = square_root(d.w * d.w + d.x * d.x + d.y * d.y + d.z * d.z);
     if (norm == 0) return {1, 0, 0, 0};
     return {d.w / norm, d.x / norm, d.y / norm, d.z / norm};
 }

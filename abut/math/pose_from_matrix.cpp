@@ -1,6 +1,7 @@
 #include <abut/math/affine.hpp>
 #include <abut/math/pose_from_matrix.hpp>
 #include <abut/math/simd/library_entry.hpp>
+#include <abut/math/simd/square_root.hpp>
 
 #include <algorithm>
 #include <array>
@@ -89,7 +90,7 @@ glm::quat rotation_of(Affine<3> map) {
         q = {z.x - x.z, x.y + y.x, yy, y.z + z.y};
     else
         q = {x.y - y.x, z.x + x.z, y.z + z.y, zz};
-    const double size = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z) * (q.w < 0 ? -1 : 1);
+    const double size = square_root(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z) * (q.w < 0 ? -1 : 1);
     return glm::quat(glm::dquat(q.w / size, q.x / size, q.y / size, q.z / size));
 }
 

@@ -10,11 +10,11 @@
 #include <abut/convex/hull/hull.hpp>
 #include <abut/math/assert.hpp>
 #include <abut/math/simd/library_entry.hpp>
+#include <abut/math/simd/square_root.hpp>
 #include <abut/query/detail/valid_query.hpp>
 #include <abut/query/polytope.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -156,7 +156,7 @@ private:
             probe(n, dot(n, point(edge.from)), half_right_angle * tolerance_);
         }
         for (std::size_t face = 0; face < hull.normals.size(); ++face) {
-            const double half_angle = std::sqrt(std::max(0.5 * (1 + min_cosine[face]), 0.5));
+            const double half_angle = square_root(std::max(0.5 * (1 + min_cosine[face]), 0.5));
             probe(DVec<3>(hull.normals[face]), hull.offsets[face], half_angle * tolerance_);
         }
     }

@@ -1,5 +1,6 @@
 #include <abut/math/detail/no_index.hpp>
 #include <abut/math/dvec.hpp>
+#include <abut/math/simd/square_root.hpp>
 #include <abut/recast/stitch.hpp>
 
 #include <algorithm>
@@ -112,7 +113,7 @@ private:
         const DVec<2> start = flat(result_.points[from]), side = flat(result_.points[to]) - start;
         const DVec<2> offset = flat(point) - start;
         const double square = dot(side, side), along = dot(offset, side) / square;
-        const double away = std::abs(cross(side, offset)) / std::sqrt(square);
+        const double away = std::abs(cross(side, offset)) / square_root(square);
         if (off != nullptr) *off = away;
         if (!(away <= options_.tolerance) || !(along > 0 && along < 1)) return std::nullopt;
         return SidePoint{from, to, along, point.y, no_index, no_index, no_index};

@@ -1,7 +1,6 @@
+#include <abut/math/simd/square_root.hpp>
 #include <abut/walk/frame.hpp>
 #include <abut/walk/parallel_transport.hpp>
-
-#include <cmath>
 
 namespace abut::detail {
 
@@ -74,7 +73,7 @@ glm::quat WalkTurn::in_space() const {
         axis[largest_axis] = 1 - trace + 2 * element(largest_axis, largest_axis);
         w = twist[largest_axis];
     }
-    const double scale = 1 / std::sqrt(w * w + length_squared(axis));
+    const double scale = 1 / square_root(w * w + length_squared(axis));
     return glm::quat(static_cast<float>(w * scale), static_cast<float>(axis.x * scale),
                      static_cast<float>(axis.y * scale), static_cast<float>(axis.z * scale));
 }

@@ -1,3 +1,4 @@
+#include <abut/math/simd/square_root.hpp>
 #include <abut/walk/slide.hpp>
 
 #include <algorithm>
@@ -35,7 +36,7 @@ bool WalkSlide::slide() {
     while (geodesic_.crossings_left > 0) {
         --geodesic_.crossings_left;
         lanes::Double2 along = here.left - here.right;
-        const double size = std::sqrt(lanes::dot(along, along)[0]);
+        const double size = square_root(lanes::dot(along, along)[0]);
         if (std::abs(along[0]) <= head_on * size) {
             end_at(WalkMet::corner, fraction);
             return false;

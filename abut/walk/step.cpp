@@ -1,12 +1,12 @@
 #include <abut/math/assert.hpp>
 #include <abut/math/simd/library_entry.hpp>
+#include <abut/math/simd/square_root.hpp>
 #include <abut/walk/frame.hpp>
 #include <abut/walk/geodesic-inl.h>
 #include <abut/walk/parallel_transport.hpp>
 #include <abut/walk/slide.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace abut {
@@ -18,7 +18,7 @@ namespace {
 /// `step` is in the frame of the triangle.
 Walked walk_on(const WalkTriangle* triangles, const WalkPoint& place, const DVec<2>& step, const WalkOptions& options) {
     const WalkTriangle& walk = triangles[place.triangle];
-    const double square = dot(step, step), length = std::sqrt(square);
+    const double square = dot(step, step), length = square_root(square);
     ABUT_ASSERT(walk.is_walkable());
     Walked result;
     result.place = place;

@@ -2,12 +2,12 @@
 
 #include <abut/math/assert.hpp>
 #include <abut/math/simd/library_entry.hpp>
+#include <abut/math/simd/square_root.hpp>
 #include <abut/walk/frame.hpp>
 #include <abut/walk/parallel_transport.hpp>
 #include <abut/walk/unfolded_triangle-inl.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace abut {
@@ -20,7 +20,7 @@ WalkedInTriangle step_in_triangle(const WalkTriangle& walk, const WalkPoint& pla
     // Steps are rounded to float when they cross an edge. Without this tolerance a step along an edge could cross it
     // back and forth forever.
     constexpr double rounding = 0x1p-22;
-    const double length = std::sqrt(dot(step, step));
+    const double length = square_root(dot(step, step));
     ABUT_ASSERT(walk.is_walkable());
     WalkedInTriangle result;
     result.end = place;

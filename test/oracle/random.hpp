@@ -4,6 +4,7 @@
 
 #include <abut/math/dvec.hpp>
 #include <abut/math/pose.hpp>
+#include <abut/math/simd/square_root.hpp>
 
 #include <cmath>
 #include <cstdint>
@@ -62,7 +63,7 @@ public:
         } else {
             for (;;) {
                 const DVec<2> u = in_cube<2>(), v = in_cube<2>();
-                const double norm = std::sqrt(dot(u, u) + dot(v, v));
+                const double norm = detail::square_root(dot(u, u) + dot(v, v));
                 if (norm > 0.1 && norm < 1)
                     return glm::quat(static_cast<float>(u.x / norm), static_cast<float>(u.y / norm),
                                      static_cast<float>(v.x / norm), static_cast<float>(v.y / norm));

@@ -8,6 +8,7 @@
 #include <abut/bake/field/surface.hpp>
 #include <abut/bake/field/winding_number.hpp>
 #include <abut/math/dvec.hpp>
+#include <abut/math/simd/square_root.hpp>
 
 #include <array>
 #include <cmath>
@@ -77,7 +78,7 @@ public:
         for (std::uint32_t i = 0; i < block.samples(); i += block.count.x)
             closed_windings_.evaluate(block.sample(i), block.count.x, block.stride, &windings[i]);
         for (std::uint32_t i = 0; i < block.samples(); ++i) {
-            const double distance = std::sqrt(nearest[i].squared);
+            const double distance = square_root(nearest[i].squared);
             const double winding = winding_number(lattice_.at(block.sample(i)), windings[i]);
             const bool inside = winding >= 0.5;
             values.distance[i] = static_cast<float>(inside ? -distance : distance);
@@ -92,7 +93,9 @@ public:
                                                                        : normal_of(nearest[i].primitive));
         }
     }
-    double distance(const DVec<3>& point) const override { return std::sqrt(nearest_primitive(tree_, point).squared); }
+    double distance(const DVec<3>& point) const override {
+        return square_root(nearest_primitive(tree_, point).squared);
+    }
 
 private:
     /// The absolute winding number of the open surface. `closed_winding` is that of the surface and its cap together.

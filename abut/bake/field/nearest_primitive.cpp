@@ -9,11 +9,11 @@
 
 #include <abut/bake/field/nearest_primitive.hpp>
 #include <abut/math/simd/dispatch-inl.h>
+#include <abut/math/simd/square_root.hpp>
 
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
 #include <limits>
 
 #undef HWY_TARGET_INCLUDE
@@ -136,7 +136,7 @@ public:
                 leaf_ = leaf_number;
             }
         }
-        const double reach = std::sqrt(squared_) * (1 + 0x1p-40) + rounding_;
+        const double reach = square_root(squared_) * (1 + 0x1p-40) + rounding_;
         reach_ = reach * reach;
     }
 
@@ -291,7 +291,7 @@ void nearest_to_block(const PrimitiveBvh<D>& tree, const SampleLattice<D>& latti
     const DVec<D> low = at(Counts(0u)), high = at(block.count - 1u), middle = (low + high) * 0.5;
     Search<D> first(tree, middle);
     first.traverse();
-    const double reach = std::sqrt(first.reach()) + 0.5 * length(high - low) * (1 + 0x1p-40);
+    const double reach = square_root(first.reach()) + 0.5 * length(high - low) * (1 + 0x1p-40);
     CandidateLeaves<D> candidates;
     const bool fits = candidates.gather(tree, low, high, reach, middle);
 

@@ -4,10 +4,10 @@
 #include <abut/bake/field/nearest_primitive.hpp>
 #include <abut/bake/field/primitive_bvh.hpp>
 #include <abut/math/dvec.hpp>
+#include <abut/math/simd/square_root.hpp>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <tuple>
 #include <utility>
 
@@ -100,7 +100,7 @@ public:
         for (std::uint32_t i = 0; i < block.samples(); i += block.count.x)
             crossings_.evaluate(block.sample(i), block.count.x, block.stride, &inside[i]);
         for (std::uint32_t i = 0; i < block.samples(); ++i) {
-            const double distance = std::sqrt(nearest[i].squared);
+            const double distance = square_root(nearest[i].squared);
             values.distance[i] = static_cast<float>(inside[i] ? -distance : distance);
             if (values.gradient == nullptr && values.closest == nullptr) continue;
             const DVec<2> point = lattice_.at(block.sample(i)), offset = closest_offset(point, nearest[i].primitive);
@@ -111,7 +111,9 @@ public:
                                                                        : normal_of(nearest[i].primitive));
         }
     }
-    double distance(const DVec<2>& point) const override { return std::sqrt(nearest_primitive(tree_, point).squared); }
+    double distance(const DVec<2>& point) const override {
+        return square_root(nearest_primitive(tree_, point).squared);
+    }
 
 private:
     DVec<2> closest_offset(const DVec<2>& point, std::uint32_t side) const {

@@ -6,10 +6,10 @@
 #include <abut/bake/field/primitive_bvh.hpp>
 #include <abut/convex/features.hpp>
 #include <abut/math/dvec.hpp>
+#include <abut/math/simd/square_root.hpp>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -59,7 +59,7 @@ public:
         signs_.sample(std::span<const Vec<D>>(places).first(count), std::span(signs).first(count));
         for (std::uint32_t i = 0; i < count; ++i) {
             const double sign = signs[i].distance <= 0 ? -1 : 1;
-            values.distance[i] = static_cast<float>(sign * std::sqrt(nearest[i].squared));
+            values.distance[i] = static_cast<float>(sign * square_root(nearest[i].squared));
             if (values.gradient != nullptr || values.closest != nullptr) {
                 const DVec<D> point = lattice_.at(block.sample(i));
                 const DVec<D> on = closest_on(primitives_[nearest[i].primitive], point).point;
@@ -70,7 +70,7 @@ public:
             if (values.uncertain != nullptr) values.uncertain[i] = 0;
         }
     }
-    double distance(const DVec<D>& point) const override { return std::sqrt(nearest_primitive(bvh_, point).squared); }
+    double distance(const DVec<D>& point) const override { return square_root(nearest_primitive(bvh_, point).squared); }
 
 private:
     const std::vector<Primitive<D>>& primitives_;

@@ -7,6 +7,7 @@
 #include <abut/field/data.hpp>
 #include <abut/field/packed_direction.hpp>
 #include <abut/math/aabb.hpp>
+#include <abut/math/simd/square_root.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -56,7 +57,7 @@ private:
             const double gap = std::max(std::max(below, above), 0.0);
             squared += gap * gap;
         }
-        return std::sqrt(squared) > std::abs(static_cast<double>(was)) * (1 + 1e-6);
+        return square_root(squared) > std::abs(static_cast<double>(was)) * (1 + 1e-6);
     }
 
     /// The index of a stored sample: in a dense field directly, else in the brick of its block or of a lower neighbour.

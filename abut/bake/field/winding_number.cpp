@@ -1,5 +1,6 @@
 #include <abut/bake/field/winding_number.hpp>
 #include <abut/math/detail/sin_cos.hpp>
+#include <abut/math/simd/square_root.hpp>
 
 #include <algorithm>
 #include <array>
@@ -105,7 +106,7 @@ std::optional<double> GeneralizedWindingNumber::approximate(const DVec<3>& point
         const DVec<3> offset = group.middle - point;
         const double squared = length_squared(offset);
         if (squared > far_radii * far_radii * group.radius * group.radius) {
-            sum += dot(group.area, offset) / (full_angle * squared * std::sqrt(squared));
+            sum += dot(group.area, offset) / (full_angle * squared * square_root(squared));
         } else if (group.below == 0) {
             const std::optional<double> some = exact(point, group.first, group.count);
             if (!some) return std::nullopt;

@@ -1,6 +1,7 @@
 #include <abut/bake/parts/concavity.hpp>
 #include <abut/convex/features.hpp>
 #include <abut/math/dvec.hpp>
+#include <abut/math/simd/square_root.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -35,7 +36,7 @@ std::vector<DVec<3>> samples_of(std::span<const Corners> triangles) {
     std::vector<DVec<3>> result;
     for (const auto& [a, b, c] : triangles) {
         const double longest =
-            std::sqrt(std::max({length_squared(b - a), length_squared(c - b), length_squared(a - c)}));
+            square_root(std::max({length_squared(b - a), length_squared(c - b), length_squared(a - c)}));
         constexpr double cells_an_extent = 5, farthest_found = 5;
         const int cells =
             static_cast<int>(std::clamp(std::ceil(longest / extent * cells_an_extent), 1.0, farthest_found));
@@ -61,12 +62,12 @@ BoundedTriangle bounded(const Corners& t) {
     const DVec<3> center = (t[0] + t[1] + t[2]) / 3.0;
     double square = 0;
     for (const DVec<3>& p : t) square = std::max(square, length_squared(p - center));
-    return {t, center, std::sqrt(square)};
+    return {t, center, square_root(square)};
 }
 
 /// The minimum of `best` and the squared distance from the triangle.
 double nearest_squared(double best, const BoundedTriangle& bounded, const DVec<3>& p) {
-    const double reach = std::sqrt(best) + bounded.radius;
+    const double reach = square_root(best) + bounded.radius;
     if (length_squared(p - bounded.center) >= reach * reach) return best;
     const auto& [a, b, c] = bounded.corners;
     return std::min(best, length_squared(p - closest_on_triangle(a, b, c, p).point));
@@ -141,7 +142,7 @@ double farthest(std::span<const Corners> triangles, const DistanceThreshold& thr
     double farthest_found = 0;
     const auto distance = [&](const DVec<3>& p) {
         const double found = squared(p);
-        return std::isfinite(found) ? std::sqrt(found) : 0;
+        return std::isfinite(found) ? square_root(found) : 0;
     };
     for (const DVec<3>& p : samples_of(triangles)) farthest_found = std::max(farthest_found, distance(p));
     std::vector<Corners> stack(triangles.begin(), triangles.end());

@@ -1,6 +1,7 @@
 #include <abut/bake/parts/cut_search.hpp>
 #include <abut/bake/parts/reflex_planes.hpp>
 #include <abut/math/dvec.hpp>
+#include <abut/math/simd/square_root.hpp>
 
 #include <algorithm>
 #include <array>
@@ -179,8 +180,8 @@ std::array<DVec<3>, 3> principal_axes_of(std::span<const DVec<3>> points) {
             for (int q = p + 1; q < 3; ++q) {
                 if (m[p][q] == 0) continue;
                 const double theta = (m[q][q] - m[p][p]) / (2 * m[p][q]);
-                const double t = (theta < 0 ? -1 : 1) / (std::abs(theta) + std::sqrt(theta * theta + 1));
-                const double c = 1 / std::sqrt(t * t + 1), s = t * c;
+                const double t = (theta < 0 ? -1 : 1) / (std::abs(theta) + square_root(theta * theta + 1));
+                const double c = 1 / square_root(t * t + 1), s = t * c;
                 for (int k = 0; k < 3; ++k) {
                     const double a = m[k][p], b = m[k][q];
                     m[k][p] = c * a - s * b;

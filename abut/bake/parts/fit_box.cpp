@@ -1,4 +1,5 @@
 #include <abut/bake/parts/fit_candidates.hpp>
+#include <abut/math/simd/square_root.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -43,8 +44,8 @@ Axes eigenvectors(Symmetric m) {
             for (std::size_t q = p + 1; q < 3; ++q) {
                 if (m[p][q] == 0) continue;
                 const double theta = (m[q][q] - m[p][p]) / (2 * m[p][q]);
-                const double t = (theta < 0 ? -1 : 1) / (std::abs(theta) + std::sqrt(theta * theta + 1));
-                const double c = 1 / std::sqrt(t * t + 1), s = t * c;
+                const double t = (theta < 0 ? -1 : 1) / (std::abs(theta) + square_root(theta * theta + 1));
+                const double c = 1 / square_root(t * t + 1), s = t * c;
                 for (std::size_t k = 0; k < 3; ++k) {
                     const double a = m[k][p], b = m[k][q];
                     m[k][p] = c * a - s * b;
@@ -94,7 +95,7 @@ Axes rotated(const Axes& axes, int around, double half_tangent) {
     turn.x = axis.x * half_tangent;
     turn.y = axis.y * half_tangent;
     turn.z = axis.z * half_tangent;
-    turn = glm::normalize(turn);
+    turn = normalized(turn);
     return {turn * axes[0], turn * axes[1], turn * axes[2]};
 }
 
@@ -119,7 +120,7 @@ Box<3> box_of(const Polyhedron& part, const Axes& axes) {
     Box<3> box;
     box.rotation = glm::normalize(glm::quat(glm::quat_cast(turn)));
     // The bounds are tight along the axes as rounded to float.
-    const glm::dquat rounded = glm::normalize(glm::dquat(box.rotation));
+    const glm::dquat rounded = normalized(glm::dquat(box.rotation));
     const OrientedBounds frame = bounds_along(part, {rounded * axis<3>(0), rounded * axis<3>(1), rounded * axis<3>(2)});
     box.center = to_float(rounded * ((frame.low + frame.high) * 0.5));
     const DVec<3> center(box.center);
@@ -131,6 +132,13 @@ Box<3> box_of(const Polyhedron& part, const Axes& axes) {
 }
 
 }  // namespace
+
+glm::dquat normalized(const glm::dquat& q) {
+    const double norm = square_root((q.w * q.w + q.x * q.x) + (q.y * q.y + q.z * q.z));
+    if (norm == 0) return {1, 0, 0, 0};
+    const double inverse = 1 / norm;
+    return {q.w * inverse, q.x * inverse, q.y * inverse, q.z * inverse};
+}
 
 Axes principal_axes(const Polyhedron& part) {
     return eigenvectors(moments_of(part));

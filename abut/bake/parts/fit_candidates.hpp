@@ -10,9 +10,14 @@
 #include <array>
 #include <optional>
 
+#include <glm/ext/quaternion_double.hpp>
+
 namespace abut::detail {
 
 using Axes = std::array<DVec<3>, 3>;
+
+/// q normalised, with the same bits on every machine, as glm::normalize takes the root of the C library.
+glm::dquat normalized(const glm::dquat& q);
 
 /// The principal axes of inertia of the part's surface, right-handed, unit length, longest first.
 Axes principal_axes(const Polyhedron& part);

@@ -1,8 +1,8 @@
 #include <abut/bake/parts/fit_candidates.hpp>
+#include <abut/math/simd/square_root.hpp>
 #include <abut/query/closest.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace abut::detail {
@@ -73,7 +73,7 @@ std::optional<Capsule<3>> descend(const Polyhedron& part, CoreSegment core, bool
     double step = first * part.ball().radius;
     for (int i = 0; i < steps; ++i, step *= shorter) {
         if (is_ball) shell.descent_a = shell.descent_b = shell.descent_a + shell.descent_b;
-        const double size = std::sqrt(length_squared(shell.descent_a) + length_squared(shell.descent_b));
+        const double size = square_root(length_squared(shell.descent_a) + length_squared(shell.descent_b));
         if (!(size > 0)) break;
         core.a += shell.descent_a * (step / size);
         core.b += shell.descent_b * (step / size);

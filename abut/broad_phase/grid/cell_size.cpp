@@ -1,5 +1,6 @@
 #include <abut/broad_phase/grid/cell_size.hpp>
 #include <abut/broad_phase/grid/parallel_parts.hpp>
+#include <abut/math/simd/square_root.hpp>
 
 #include <algorithm>
 #include <array>
@@ -84,7 +85,7 @@ GridStatistics<D> statistics_of(std::span<const Aabb<D>> boxes, Executor* execut
     statistics.mean_edge = sums.edges / (count * D);
     for (int i = 0; i < D; ++i) {
         const double mean = sums.centers[i] / count, variance = std::max(0.0, sums.squares[i] / count - mean * mean);
-        const double spread = 3 * std::sqrt(variance);
+        const double spread = 3 * square_root(variance);
         statistics.region.min[i] = std::max(sums.center_bounds.min[i], static_cast<float>(mean - spread));
         statistics.region.max[i] =
             std::max(statistics.region.min[i], std::min(sums.center_bounds.max[i], static_cast<float>(mean + spread)));

@@ -5,6 +5,7 @@
 
 #include <abut/broad_phase/grid/cells.hpp>
 #include <abut/broad_phase/reach.hpp>
+#include <abut/math/simd/square_root.hpp>
 
 #include <algorithm>
 #include <array>
@@ -217,7 +218,7 @@ private:
     }
 
     CellRange<D> cells_within(const BoxReach<D>& reach) const {
-        const double distance = std::sqrt(reach.max_measure());
+        const double distance = square_root(reach.max_measure());
         CellRange<D> result;
         for (std::size_t i = 0; i < D; ++i) {
             const double margin = distance + tolerance_[i] + 1e-6 * distance;

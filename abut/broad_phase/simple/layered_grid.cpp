@@ -10,6 +10,7 @@
 #include <abut/math/assert.hpp>
 #include <abut/math/detail/next_float.hpp>
 #include <abut/math/simd/library_entry.hpp>
+#include <abut/math/simd/square_root.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -218,7 +219,7 @@ void LayeredGrid<D>::visit_near(const Aabb<D>& box, float max_distance, ReachCal
     double nearest = 0, visited = -1;
     if (reach.is_exhausted() || entries_.empty() || !reach.measure(bounds_, nearest)) return;
     double step = 0.25 * common_edge();
-    for (double distance = std::sqrt(nearest) + step;;) {
+    for (double distance = square_root(nearest) + step;;) {
         const double end = distance * distance;
         const Aabb<D> region = grown(reach.box(), next_up(static_cast<float>(std::min(distance, largest_float))));
         std::size_t tested = 0;
@@ -239,7 +240,7 @@ void LayeredGrid<D>::visit_near(const Aabb<D>& box, float max_distance, ReachCal
         visited = end;
         step *= 2;
         distance += step;
-        if (tested == entries_.size()) distance = std::max(distance, std::sqrt(next));
+        if (tested == entries_.size()) distance = std::max(distance, square_root(next));
     }
 }
 

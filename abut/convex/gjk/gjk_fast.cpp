@@ -1,6 +1,7 @@
 // Highway compiles this file once for each SIMD target and selects the best at run time.
 
 #include <abut/convex/gjk/gjk_fast.hpp>
+#include <abut/math/simd/square_root.hpp>
 
 #include <limits>
 
@@ -115,7 +116,7 @@ public:
         }
         const double upper_bound = length(sum);
         result.upper_bound = upper_bound * core_a_.scale;
-        result.lower_bound = along_ / std::sqrt(distance_squared_) * core_a_.scale;
+        result.lower_bound = along_ / square_root(distance_squared_) * core_a_.scale;
         result.on_a = core_a_.place.point(on_a);
         const bool on_simplex = weights[0] >= 0 && weights[1] >= 0 && weights[2] >= 0;
         return on_simplex && upper_bound > 1e-6 * scale_ && largest(sum - closest_) <= 1e-9 * upper_bound;

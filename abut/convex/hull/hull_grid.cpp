@@ -5,9 +5,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace abut::detail {
 namespace {
+
+/// The nearest whole number to x >= 0, of two the larger. std::llround of MinGW-w64 rounds 1/2 - 2^-54 to 1.
+std::int64_t nearest_whole(double x) {
+    const double whole = std::floor(x);
+    return static_cast<std::int64_t>(whole) + (x - whole >= 0.5 ? 1 : 0);
+}
 
 template <class Point>
 HullGrid grid_of(std::span<const Point> points) {
@@ -22,7 +29,7 @@ HullGrid grid_of(std::span<const Point> points) {
     result.points.reserve(points.size());
     for (const Point& point : points) {
         const DVec<3> offset = (DVec<3>(point) - result.least) / result.step;
-        const GridPoint rounded(std::llround(offset.x), std::llround(offset.y), std::llround(offset.z));
+        const GridPoint rounded(nearest_whole(offset.x), nearest_whole(offset.y), nearest_whole(offset.z));
         for (int i = 0; i < 3; ++i)
             result.rounding[i] = std::max(result.rounding[i], std::abs(static_cast<double>(rounded[i]) - offset[i]));
         result.points.push_back(rounded);

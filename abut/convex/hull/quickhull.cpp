@@ -6,6 +6,7 @@
 #include <abut/convex/hull/quickhull.hpp>
 #include <abut/math/detail/no_index.hpp>
 #include <abut/math/dvec.hpp>
+#include <abut/math/simd/square_root.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -186,7 +187,7 @@ private:
             over = over && dot(cross(facet.plane.normal, b - a), p - a) >= 0;
             to_edge_squared = std::min(to_edge_squared, distance_squared_to_segment(p, a, b));
         }
-        return over ? height(facet, point) : std::sqrt(to_edge_squared);
+        return over ? height(facet, point) : square_root(to_edge_squared);
     }
 
     double farthest_left_out(const Facet& facet) const {

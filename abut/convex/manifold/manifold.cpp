@@ -1,6 +1,7 @@
 #include <abut/convex/face.hpp>
 #include <abut/convex/manifold/manifold.hpp>
 #include <abut/convex/manifold/reduce.hpp>
+#include <abut/math/simd/square_root.hpp>
 
 namespace abut::detail {
 namespace {
@@ -45,7 +46,7 @@ void each_side_plane(const Face<D>& face, const DVec<D>& out, double reach, Visi
 double reach_beside(const Face<3>& edge, const DVec<3>& out, double radius, const DVec<3>& point) {
     const DVec<3> side = cross(across(edge.points[1] - edge.points[0], out), out);
     const double off = dot(side, point - edge.points[0]);
-    return std::sqrt(std::max(0.0, radius * radius - off * off));
+    return square_root(std::max(0.0, radius * radius - off * off));
 }
 double reach_beside(const Face<2>&, const DVec<2>&, double radius, const DVec<2>&) {
     return radius;
@@ -56,7 +57,7 @@ bool side_by_side(const Face<3>& a, const Face<3>& b, const DVec<3>& normal) {
     if (a.count != 2 || b.count != 2) return false;
     const DVec<3> along_a = normalized(a.points[1] - a.points[0], DVec<3>(0.0));
     const DVec<3> along_b = normalized(b.points[1] - b.points[0], DVec<3>(0.0));
-    const double tilt = std::sqrt(1 - aligned * aligned);
+    const double tilt = square_root(1 - aligned * aligned);
     return std::abs(dot(along_a, along_b)) >= aligned && std::abs(dot(along_a, normal)) <= tilt;
 }
 bool side_by_side(const Face<2>&, const Face<2>&, const DVec<2>&) {
@@ -121,7 +122,7 @@ double approximate_size(const Convex<D>& convex) {
     double farthest_squared = 0;
     for (std::uint32_t i = 1; i < convex.count; ++i)
         farthest_squared = std::max(farthest_squared, length_squared(DVec<D>(points[i]) - DVec<D>(points[0])));
-    return 0.5 * convex.scale * std::sqrt(farthest_squared) + convex.radius;
+    return 0.5 * convex.scale * square_root(farthest_squared) + convex.radius;
 }
 
 /// Adds the closest point if no candidate is as deep: the deepest corner may lie on no face along the normal.

@@ -2,6 +2,7 @@
 #include <abut/convex/farthest_point.hpp>
 #include <abut/convex/manifold/round_manifold.hpp>
 #include <abut/convex/pairs/round3.hpp>
+#include <abut/math/simd/square_root.hpp>
 
 namespace abut::detail {
 namespace {
@@ -80,7 +81,7 @@ void clip_segments(const RoundSegment& a, const RoundSegment& b, const SignedDis
     const bool parallel =
         uu > 0 && vv > 0 && uv * uv >= aligned * aligned * uu * vv && tilt * tilt <= tilt_squared * uu;
     if (!parallel) return add_deepest(distance, 0, result);
-    const double tolerance = 1e-6 * std::min(0.5 * std::sqrt(uu) + a.radius, 0.5 * std::sqrt(vv) + b.radius);
+    const double tolerance = 1e-6 * std::min(0.5 * square_root(uu) + a.radius, 0.5 * square_root(vv) + b.radius);
     const DVec<3> along = normalized(u - normal * tilt), side = cross(along, normal);
     const auto cut = [&](const DVec<3>& plane, double offset, std::uint32_t name) {
         clipped.cut(dot(plane, clipped.from) - offset, dot(plane, clipped.to) - offset, name);
@@ -96,7 +97,7 @@ void clip_segments(const RoundSegment& a, const RoundSegment& b, const SignedDis
         const auto add = [&](double part, std::uint32_t name) {
             const DVec<3> place = clipped.at(part);
             const double off = dot(side, place), gap = dot(normal, place) - rise * dot(along, place);
-            const double reach = std::sqrt(std::max(0.0, a.radius * a.radius - off * off));
+            const double reach = square_root(std::max(0.0, a.radius * a.radius - off * off));
             writer.add(origin + place, reach + b.radius - gap, name);
         };
         add(clipped.low, clipped.low_name);
@@ -190,10 +191,10 @@ bool clip_to_triangle(const Convex<3>& triangle, const RoundSegment& segment, co
     const double square = length_squared(area), longest_squared = std::max(length_squared(u), length_squared(v));
     if (!(square > 1e-6 * longest_squared * longest_squared)) return false;
     const bool behind = dot(area, out) < 0;
-    const double tolerance = 1e-6 * std::min(std::sqrt(longest_squared) + triangle.radius, segment.reach());
+    const double tolerance = 1e-6 * std::min(square_root(longest_squared) + triangle.radius, segment.reach());
     return clip_to_face(
         triangle, 3, [&](std::uint32_t i) { return behind ? 2 - i : i; },
-        area * ((behind ? -1 : 1) / std::sqrt(square)), segment, distance, out, tolerance, margin, result);
+        area * ((behind ? -1 : 1) / square_root(square)), segment, distance, out, tolerance, margin, result);
 }
 
 bool clip_to_hull(const Convex<3>& hull, const RoundSegment& segment, const SignedDistance<3>& distance,
@@ -206,7 +207,7 @@ bool clip_to_hull(const Convex<3>& hull, const RoundSegment& segment, const Sign
     double farthest = 0;
     for (const std::uint32_t i : loop)
         farthest = std::max(farthest, length_squared(DVec<3>(hull.vertices()[i]) - DVec<3>(hull.vertices()[loop[0]])));
-    const double tolerance = 1e-6 * std::min(hull.scale * std::sqrt(farthest) + hull.radius, segment.reach());
+    const double tolerance = 1e-6 * std::min(hull.scale * square_root(farthest) + hull.radius, segment.reach());
     return clip_to_face(
         hull, static_cast<std::uint32_t>(loop.size()), [&](std::uint32_t i) { return loop[i]; }, normal, segment,
         distance, out, tolerance, margin, result);

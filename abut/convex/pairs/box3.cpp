@@ -5,6 +5,7 @@
 #include <abut/convex/pairs/box3.hpp>
 #include <abut/convex/pairs/box_axes.hpp>
 #include <abut/convex/pairs/box_closest.hpp>
+#include <abut/math/simd/square_root.hpp>
 
 namespace abut::detail {
 namespace {
@@ -144,7 +145,7 @@ Triple face_normal(const BoxFrame& frame, std::size_t number) {
 
 Triple unit_edge_axis(const BoxFrame& frame, std::size_t number) {
     Triple axis = edge_axis(frame, number);
-    const double one = 1 / std::sqrt(dot(axis, axis));
+    const double one = 1 / square_root(dot(axis, axis));
     for (double& x : axis) x *= one;
     return axis;
 }

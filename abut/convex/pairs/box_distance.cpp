@@ -1,5 +1,6 @@
 #include <abut/convex/pairs/box_axes.hpp>
 #include <abut/convex/pairs/box_closest.hpp>
+#include <abut/math/simd/square_root.hpp>
 
 namespace abut::detail {
 namespace {
@@ -38,7 +39,7 @@ bool from_a_to_corner(const BoxFrame& frame, std::uint32_t& number, BoxClosest& 
     double plane = dot(between, frame.middle);
     for (std::size_t i = 0; i < 3; ++i)
         plane -= std::abs(between[i]) * frame.half_a[i] + std::abs(rotated[i]) * frame.half_b[i];
-    closest.distance = std::sqrt(square);
+    closest.distance = square_root(square);
     if (!(square - plane <= box_tolerance * frame.scale() * closest.distance)) {
         number = 0;
         for (std::size_t j = 0; j < 3; ++j) number |= rotated[j] > 0 ? 1u << j : 0u;
@@ -64,7 +65,7 @@ bool closest_on_edges(const BoxFrame& frame, std::size_t number, BoxClosest& clo
     const std::size_t i = number / 3, j = number % 3;
     const Triple axis = edge_axis(frame, number);
     const Triple rotated = frame.along_b(axis);
-    const double square = dot(axis, axis), one = 1 / std::sqrt(square);
+    const double square = dot(axis, axis), one = 1 / square_root(square);
     if (!(square > min_axis_square)) return false;
     const Triple& edge_b = frame.axis_b[j];
     closest.part_a = {0, 1u << i};

@@ -4,6 +4,7 @@
 // them, that suffices.
 
 #include <abut/convex/pairs/box_triangle.hpp>
+#include <abut/math/simd/square_root.hpp>
 
 namespace abut::detail {
 namespace {
@@ -60,7 +61,7 @@ Gap widest_face_gap(const TriangleInBox& local, double max_distance) {
         best.thin = true;
         return best;
     }
-    const double one = 1 / std::sqrt(square), height = dot(area, a);
+    const double one = 1 / square_root(square), height = dot(area, a);
     const double width = (std::abs(height) - local.reach(area)) * one;
     if (width >= best.width) best = {width, area * (height < 0 ? -one : one)};
     return best;
@@ -94,7 +95,7 @@ void widen_by_edges(const TriangleInBox& local, double max_distance, double roun
             const double threshold = best.width + rounding;
             if (width < 0 && threshold <= 0 && width * width >= threshold * threshold * square) return;
             if (!(square > min_square)) return;
-            const double one = 1 / std::sqrt(square);
+            const double one = 1 / square_root(square);
             if (!(width * one > threshold)) return;
             best.width = width * one;
             const double sign = low >= -high ? one : -one;

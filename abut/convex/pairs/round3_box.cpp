@@ -1,6 +1,7 @@
 // A segment and a box, in the frame of the box.
 
 #include <abut/convex/pairs/round3.hpp>
+#include <abut/math/simd/square_root.hpp>
 
 namespace abut::detail {
 namespace {
@@ -95,7 +96,7 @@ SeparatingDirection separating_direction(const SeenSegment& s) {
         const int j = (i + 1) % 3, k = (i + 2) % 3;
         const double square = s.along[j] * s.along[j] + s.along[k] * s.along[k];
         if (!(square > min_square)) continue;
-        const double across = std::sqrt(square), height = middle[k] * s.along[j] - middle[j] * s.along[k];
+        const double across = square_root(square), height = middle[k] * s.along[j] - middle[j] * s.along[k];
         const double separation =
             (std::abs(height) - s.half[j] * std::abs(s.along[k]) - s.half[k] * std::abs(s.along[j])) / across;
         if (!(separation > best.separation + round3_tolerance * s.scale)) continue;

@@ -1,4 +1,5 @@
 #include <abut/convex/pairs/round3.hpp>
+#include <abut/math/simd/square_root.hpp>
 
 namespace abut::detail {
 namespace {
@@ -11,7 +12,8 @@ double part_of(double along, double whole) {
 DVec<3> across_both(const DVec<3>& u, const DVec<3>& v) {
     const DVec<3> across = cross(u, v);
     const double square = length_squared(across);
-    return square > min_round3_gap * length_squared(u) * length_squared(v) ? across / std::sqrt(square) : DVec<3>(0.0);
+    return square > min_round3_gap * length_squared(u) * length_squared(v) ? across / square_root(square)
+                                                                           : DVec<3>(0.0);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // A point or a segment and a triangle, relative to the triangle's first corner.
 
 #include <abut/convex/pairs/round3.hpp>
+#include <abut/math/simd/square_root.hpp>
 
 namespace abut::detail {
 namespace {
@@ -99,7 +100,7 @@ struct TriangleDirection {
 /// The direction of minimum depth among all face normals of the Minkowski difference: the triangle's normal, and the
 /// cross products of its edges with the segment.
 TriangleDirection separating_direction(const SeenTriangle& t, const DVec<3>& p, const DVec<3>& q, double scale) {
-    const double one = 1 / std::sqrt(t.square), at_p = dot(t.area, p) * one, at_q = dot(t.area, q) * one;
+    const double one = 1 / square_root(t.square), at_p = dot(t.area, p) * one, at_q = dot(t.area, q) * one;
     const double above = std::min(at_p, at_q), below = -std::max(at_p, at_q);
     TriangleDirection best{std::max(above, below), t.area * (above >= below ? one : -one)};
     const DVec<3> along = q - p;
@@ -109,7 +110,7 @@ TriangleDirection separating_direction(const SeenTriangle& t, const DVec<3>& p, 
         const double square = length_squared(across);
         if (!(square > 1e-18 * length_squared(edge) * length_squared(along))) continue;
         const double inwards = dot(across, t.corners[k] - t.corners[i]);
-        const DVec<3> out = across * ((inwards > 0 ? -1 : 1) / std::sqrt(square));
+        const DVec<3> out = across * ((inwards > 0 ? -1 : 1) / square_root(square));
         const double separation = std::min(dot(out, p), dot(out, q)) - t.support_along(out);
         if (separation > best.separation + round3_tolerance * scale) best = {separation, out, i, j};
     }
@@ -150,7 +151,7 @@ bool triangle_point(const Convex<3>& triangle, const Convex<3>& point, SignedDis
     const DVec<3> seen = core_corner(point, 0) - t.origin;
     TrianglePoint place;
     if (!nearest_beside(t, seen, place)) {
-        const double one = 1 / std::sqrt(t.square), height = dot(t.area, seen) * one;
+        const double one = 1 / square_root(t.square), height = dot(t.area, seen) * one;
         const DVec<3> normal = t.area * (height < 0 ? -one : one);
         place = {seen - normal * std::abs(height), {0, 1, 2}};
         name_corners(place, 0, 0, result.corners);
@@ -178,7 +179,7 @@ TriangleClosest closest_point_on_triangle(const Convex<3>& triangle, const DVec<
     if (nearest_beside(t, seen, place)) {
         distance = length(seen - place.point);
     } else {
-        const double one = 1 / std::sqrt(t.square);
+        const double one = 1 / square_root(t.square);
         place.point = seen - t.area * (height * one * one);
         distance = std::abs(height) * one;
     }
@@ -204,7 +205,7 @@ PairAnswer triangle_segment(const Convex<3>& triangle, const Convex<3>& segment,
         if (t.is_beyond(end == 0 ? at_p : at_q, reach + triangle.radius + segment.radius)) return PairAnswer::no;
         const DVec<3>& lower = end == 0 ? p : q;
         if (t.is_over(lower)) {
-            const double one = 1 / std::sqrt(t.square), height = std::abs(end == 0 ? at_p : at_q) * one;
+            const double one = 1 / square_root(t.square), height = std::abs(end == 0 ? at_p : at_q) * one;
             const DVec<3> normal = t.area * (at_p > 0 ? one : -one);
             const TrianglePoint place{lower - normal * height, {0, 1, 2}};
             name_corners(place, end, end, result.corners);

@@ -3,6 +3,7 @@
 // Ray against ball. Inline, because it is short. For .cpp files.
 
 #include <abut/convex/ray/closed_forms.hpp>
+#include <abut/math/simd/square_root.hpp>
 
 namespace abut::detail {
 
@@ -14,7 +15,7 @@ inline double along_to_ball(const DRay<D>& ray, const DVec<D>& center, double ra
     const double passes = length_squared(center - ray.direction * nearest);
     const double half_chord = radius * radius - passes;
     enters = nearest > 0 && half_chord >= 0;
-    return enters ? nearest - std::sqrt(half_chord) : 0;
+    return enters ? nearest - square_root(half_chord) : 0;
 }
 
 /// For a ray that starts outside.

@@ -1,4 +1,5 @@
 #include <abut/convex/ray/ball.hpp>
+#include <abut/math/simd/square_root.hpp>
 
 namespace abut::detail {
 namespace {
@@ -32,7 +33,7 @@ RayEntry<D> enter_capsule(const DRay<D>& ray, const DVec<D>& a, const DVec<D>& b
         const double passes_at = dot(projection, across) / pace;
         const double half_chord = radius * radius - length_squared(projection - across * passes_at);
         if (passes_at < 0 || half_chord < 0) return ray_misses<D>();
-        const double along = passes_at - std::sqrt(half_chord / pace);
+        const double along = passes_at - square_root(half_chord / pace);
         height += climbs * along;
         if (height >= 0 && height <= 1) {
             if (along > ray.length) return ray_misses<D>();

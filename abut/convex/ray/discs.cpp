@@ -1,4 +1,5 @@
 #include <abut/convex/ray/closed_forms.hpp>
+#include <abut/math/simd/square_root.hpp>
 
 namespace abut::detail {
 namespace {
@@ -23,7 +24,7 @@ RayEntry<3> enter_discs(const DRay<3>& ray, const DVec<3>& a, const DVec<3>& b, 
     const double height = length(axis), widest = std::max(radius_a, radius_b);
     if (!(height > 1e-3 * widest && widest > 1e-3 * height)) return {};
     const DVec<3> up = axis / height;
-    const double reach = std::sqrt(0.25 * height * height + widest * widest);
+    const double reach = square_root(0.25 * height * height + widest * widest);
     const double pace = length(ray.direction);
 
     // From the point nearest to the middle: from far away, squares of small distances would lose their digits.
@@ -49,7 +50,7 @@ RayEntry<3> enter_discs(const DRay<3>& ray, const DVec<3>& a, const DVec<3>& b, 
     const double rest = length_squared(off_axis) - here * here;
     const double inside_root = linear * linear - square * rest;
     if (inside_root >= 0) {
-        const double root = std::sqrt(inside_root);
+        const double root = square_root(inside_root);
         const double at = linear > 0 ? (-linear - root) / square : rest / (root - linear);
         const double top = z + climbs * at, radius = radius_a - narrows * top;
         if (std::isfinite(at) && top >= -tolerance && top <= height + tolerance && radius >= -tolerance) {

@@ -4,6 +4,7 @@
 
 #include <abut/convex/ray/closed_forms.hpp>
 #include <abut/convex/tolerance.hpp>
+#include <abut/math/simd/square_root.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -40,7 +41,7 @@ inline bool surely_misses_plane(double height, double scale) {
     const double to_ac = side * dot(ac, rotated), to_ab = -side * dot(ab, rotated);
     const double beyond = std::max(std::max(-to_ac, -to_ab), to_ac + to_ab - whole);
     const double size = largest_of_three(ab) + largest_of_three(ac), scale = largest_of_three(a) + size;
-    const double area = std::sqrt(dot(normal, normal));
+    const double area = square_root(dot(normal, normal));
     if (!(area > 1e-6 * size * size)) return RayAnswer::undecided;
     if (whole <= ray_grazing_slope * area)
         return surely_misses_plane(std::abs(height) / area, scale) ? RayAnswer::misses : RayAnswer::undecided;

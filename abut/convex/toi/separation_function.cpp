@@ -1,4 +1,5 @@
 #include <abut/convex/toi/separation_function.hpp>
+#include <abut/math/simd/square_root.hpp>
 
 namespace abut::detail {
 namespace {
@@ -20,7 +21,7 @@ double reach_of(const Convex<D>& core) {
             squared += std::max(low * low, high * high);
         }
     }
-    return std::sqrt(squared);
+    return square_root(squared);
 }
 
 /// The distance of a point from the axis of rotation; in 2D from the pivot.
@@ -132,8 +133,8 @@ SeparationFunction<D>::SeparationFunction(RotatingSet<D>& a, RotatingSet<D>& b, 
         normal_ = axis_.of(normal_.at({-rotated.sin, rotated.cos}));
     }
     // A straight path is farthest from a point at one of its ends.
-    const double farthest = std::sqrt(std::max(length_squared(path_b.pivot(from) - path_a.pivot(from)),
-                                               length_squared(path_b.pivot(1) - path_a.pivot(1))));
+    const double farthest = square_root(std::max(length_squared(path_b.pivot(from) - path_a.pivot(from)),
+                                                 length_squared(path_b.pivot(1) - path_a.pivot(1))));
     const double speed = axis_speed(angular_velocity, normal);
     acceleration_bound_ += speed * (angular_speed(angular_velocity) * farthest + 2 * length(path_b.move - path_a.move));
 }
@@ -199,15 +200,15 @@ bool stays_separated(double g1, double g2, double acceleration_bound, double h) 
 double stride(const Gap& now, double level, double acceleration_bound, double max_step) {
     const double open = now.gap - level;
     const double discriminant = now.rate * now.rate - 2 * open * now.acceleration;
-    const double speed = discriminant > 0 ? std::sqrt(discriminant) - now.rate : 0;
+    const double speed = discriminant > 0 ? square_root(discriminant) - now.rate : 0;
     const double wanted = speed * max_step > 2 * open ? 2 * open / speed : max_step;
     // At most the linear extrapolation: an opening acceleration may not last.
     const double curve = 0.5 * std::min(now.acceleration, 0.0);
     const auto expected = [&](double h) { return std::max(open + h * (now.rate + h * curve), 0.0); };
     if (stays_separated(open, expected(wanted), acceleration_bound, wanted)) return wanted;
-    const double root = std::sqrt(open), per_root = std::sqrt(2 / acceleration_bound);
+    const double root = square_root(open), per_root = square_root(2 / acceleration_bound);
     const double farthest = std::min(wanted, 2 * root * per_root);
-    return std::min(farthest, (root + std::sqrt(expected(farthest))) * per_root);
+    return std::min(farthest, (root + square_root(expected(farthest))) * per_root);
 }
 
 /// The first x at which g1 + (g2 - g1) x / h - K/2 x (h - x) is zero; h if it is nowhere below.
@@ -216,7 +217,7 @@ double first_contact(double g1, double g2, double acceleration_bound, double h) 
     const double slope = (g2 - g1) / h - 0.5 * acceleration_bound * h;
     const double discriminant = slope * slope - 2 * acceleration_bound * g1;
     if (!(slope < 0) || !(discriminant >= 0)) return h;
-    return std::min(h, 2 * g1 / (std::sqrt(discriminant) - slope));
+    return std::min(h, 2 * g1 / (square_root(discriminant) - slope));
 }
 
 }  // namespace

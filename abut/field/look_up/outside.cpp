@@ -3,6 +3,7 @@
 #include <abut/field/look_up/stencil.hpp>
 #include <abut/math/assert.hpp>
 #include <abut/math/dvec.hpp>
+#include <abut/math/simd/square_root.hpp>
 
 #include <limits>
 
@@ -60,7 +61,7 @@ FieldSample<D> outer_sample(const FieldData<D>& data, const Vec<D>& point) {
 
     // The surface in the volume lies behind the plane through `nearest` at right angles to the offset, so the angle at
     // `nearest` isn't acute, and Pythagoras gives a lower bound.
-    double bound = std::sqrt(length_squared(away) + free * free);
+    double bound = square_root(length_squared(away) + free * free);
     // The bounding box of the surface gives another lower bound.
     if (!has_no_point(data.surface)) {
         DVec<D> to_box;

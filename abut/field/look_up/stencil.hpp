@@ -4,12 +4,12 @@
 
 #include <abut/field/data.hpp>
 #include <abut/math/aabb.hpp>
+#include <abut/math/simd/square_root.hpp>
 #include <abut/math/vec.hpp>
 #include <abut/shape/view/distance_function.hpp>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -138,7 +138,7 @@ Vec<D> direction_of(const Vec<D>& slope) {
         result[0] = 1;
         return result;
     }
-    const float inverse = 1 / std::sqrt(square);
+    const float inverse = 1 / square_root(square);
     Vec<D> result;
     for (int a = 0; a < D; ++a) result[a] = slope[a] * inverse;
     return result;

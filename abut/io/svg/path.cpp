@@ -3,6 +3,7 @@
 #include <abut/io/svg/path.hpp>
 #include <abut/math/detail/sin_cos.hpp>
 #include <abut/math/dvec.hpp>
+#include <abut/math/simd/square_root.hpp>
 
 #include <algorithm>
 #include <array>
@@ -114,7 +115,7 @@ void PathFlattener::cubic_to(const Point& b, const Point& c, const Point& to) {
     const Point a = at_;
     const double second_difference = std::max(length(a - 2.0 * b + c), length(b - 2.0 * c + to));
     const double extent = std::max({length(b - a), length(c - a), length(to - a)});
-    const double segments = second_difference == 0 ? 1 : std::sqrt(0.75 * second_difference / tolerance_for(extent));
+    const double segments = second_difference == 0 ? 1 : square_root(0.75 * second_difference / tolerance_for(extent));
     add_curve(segments, to, [&](double t) {
         const double s = 1 - t;
         return s * s * s * a + 3 * s * s * t * b + 3 * s * t * t * c + t * t * t * to;
@@ -128,7 +129,7 @@ void PathFlattener::quadratic_to(const Point& b, const Point& to) {
     const double segments =
         second_difference == 0
             ? 1
-            : std::sqrt(0.25 * second_difference / tolerance_for(std::max(length(b - a), length(to - a))));
+            : square_root(0.25 * second_difference / tolerance_for(std::max(length(b - a), length(to - a))));
     add_curve(segments, to, [&](double t) {
         const double s = 1 - t;
         return s * s * a + 2 * s * t * b + t * t * to;
@@ -143,12 +144,12 @@ void PathFlattener::arc_to(Point radii, double degrees, bool large, bool sweep, 
     const Affine<2> turn = rotation_by(degrees);
     const Point half = turn.transposed(0.5 * (at_ - to));
     const double scale_up =
-        std::sqrt((half.x / radii.x) * (half.x / radii.x) + (half.y / radii.y) * (half.y / radii.y));
+        square_root((half.x / radii.x) * (half.x / radii.x) + (half.y / radii.y) * (half.y / radii.y));
     if (scale_up > 1) radii *= scale_up;
     // In the frame in which the ellipse is the unit circle, the centre is perpendicular to the half chord.
     const Point chord(half.x / radii.x, half.y / radii.y);
     const double squared = length_squared(chord);
-    const double height = std::sqrt(std::max(0.0, 1 / squared - 1)) * (large == sweep ? -1 : 1);
+    const double height = square_root(std::max(0.0, 1 / squared - 1)) * (large == sweep ? -1 : 1);
     const Point centre(height * chord.y, -height * chord.x);
     const Point from = chord - centre, until = -chord - centre;
     const double first = angle_of(from.x, from.y);
@@ -158,7 +159,7 @@ void PathFlattener::arc_to(Point radii, double degrees, bool large, bool sweep, 
 
     const Point middle = 0.5 * (at_ + to);
     const double radius = std::max(radii.x, radii.y);
-    const double segments = std::ceil(std::abs(angle) * std::sqrt(radius / (8 * tolerance_for(radius))));
+    const double segments = std::ceil(std::abs(angle) * square_root(radius / (8 * tolerance_for(radius))));
     add_curve(segments, to, [&](double t) {
         const SinCos at = sin_cos(first + t * angle);
         const Point on = Point(at.cos, at.sin) + centre;

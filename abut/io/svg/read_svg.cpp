@@ -6,6 +6,7 @@
 #include <abut/io/svg/path.hpp>
 #include <abut/io/svg/read_svg.hpp>
 #include <abut/math/dvec.hpp>
+#include <abut/math/simd/square_root.hpp>
 
 #include <algorithm>
 #include <array>
@@ -266,7 +267,7 @@ Result<PlacedShape> Reader::round(const xml_node& node, bool circle, const Inher
     const DVec<2> middle = lengths(node, "cx", "cy", from.viewport);
     DVec<2> radii;
     if (circle) {
-        radii = DVec<2>(length(node, "r", abut::detail::length(from.viewport) / std::sqrt(2.0)));
+        radii = DVec<2>(length(node, "r", abut::detail::length(from.viewport) / square_root(2.0)));
     } else {
         const double rx = length(node, "rx", from.viewport.x, -1), ry = length(node, "ry", from.viewport.y, -1);
         radii = {rx < 0 ? ry : rx, ry < 0 ? rx : ry};

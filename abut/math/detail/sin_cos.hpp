@@ -3,6 +3,7 @@
 // Sine, cosine and arctangent with the same bits on every machine, without the C library. For .cpp files.
 
 #include <abut/math/assert.hpp>
+#include <abut/math/simd/square_root.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -57,7 +58,7 @@ inline double angle_of(double cosine, double sine) {
     const double t = smaller / larger, tt = t * t;
     const double guess = t * (0.9998660 + tt * (-0.3302995 + tt * (0.1801410 + tt * (-0.0851330 + tt * 0.0208351))));
     const SinCos at = sin_cos_of_small(guess);
-    double angle = guess + (t * at.cos - at.sin) / std::sqrt(1 + tt);
+    double angle = guess + (t * at.cos - at.sin) / square_root(1 + tt);
     if (y > x) angle = 0.5 * pi - angle;
     if (cosine < 0) angle = pi - angle;
     return sine < 0 ? -angle : angle;

@@ -4,6 +4,8 @@
 // that compilers handle as they like. They serve functions so short that the dynamic dispatch of Highway would cost as
 // much as the work. Each operation rounds as that of a scalar does. For .cpp files.
 
+#include <abut/math/simd/square_root.hpp>
+
 #include <array>
 #include <bit>
 #include <cmath>
@@ -305,7 +307,7 @@ Numbers<T, n> lesser(Numbers<T, n> a, const Numbers<T, n>& b) {
 }
 template <class T, std::size_t n>
 Numbers<T, n> root(Numbers<T, n> v) {
-    for (T& lane : v.raw) lane = std::sqrt(lane);
+    for (T& lane : v.raw) lane = detail::square_root(lane);
     return v;
 }
 template <class T, std::size_t n>

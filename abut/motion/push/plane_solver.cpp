@@ -1,3 +1,4 @@
+#include <abut/math/simd/square_root.hpp>
 #include <abut/motion/push/plane_solver.hpp>
 
 #include <array>
@@ -63,7 +64,7 @@ bool nearest(std::span<const Constraint<N>> constraints, const Coordinates<N>& t
             Constraint<N - 1> trace;
             for (std::size_t k = 0; k + 1 < N; ++k) trace.normal[k] = dot_product(basis[k], constraints[j].normal);
             trace.min = constraints[j].min - constraint.min * dot_product(constraint.normal, constraints[j].normal);
-            const double length_of_trace = std::sqrt(dot_product(trace.normal, trace.normal));
+            const double length_of_trace = square_root(dot_product(trace.normal, trace.normal));
             if (length_of_trace < parallel) {
                 if (trace.min > tolerance) return false;
                 continue;

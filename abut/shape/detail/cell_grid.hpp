@@ -2,6 +2,7 @@
 
 // The cells of a grid of which some are occupied: what a TileMap and a VoxelMap share. For .cpp files.
 
+#include <abut/math/simd/square_root.hpp>
 #include <abut/shape/detail/grid_hierarchy.hpp>
 #include <abut/shape/view/parts.hpp>
 
@@ -47,7 +48,7 @@ bool clip(const RayReach<D>& reach, DVec<D>& low, DVec<D>& high) {
 /// The same with the part that is near a box.
 template <int D>
 bool clip(const BoxReach<D>& reach, DVec<D>& low, DVec<D>& high) {
-    const double distance = std::sqrt(reach.max_measure());
+    const double distance = square_root(reach.max_measure());
     if (!std::isfinite(distance)) return false;
     for (int i = 0; i < D; ++i) {
         low[i] = std::max(low[i], static_cast<double>(reach.box().min[i]) - distance);

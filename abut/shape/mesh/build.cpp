@@ -6,6 +6,7 @@
 #include <abut/broad_phase/bvh/surface_area.hpp>
 #include <abut/math/detail/radix_sort.hpp>
 #include <abut/math/simd/lanes-inl.h>
+#include <abut/math/simd/square_root.hpp>
 #include <abut/shape/mesh/build.hpp>
 #include <abut/shape/mesh/tree.hpp>
 
@@ -266,7 +267,7 @@ private:
 void set_sizes(MeshLeaf& leaf) {
     leaf.extent = extent_of(leaf);
     // The second term also covers the rounding of the first.
-    leaf.min_area = 4e-3f * std::sqrt(largest_squared_area(leaf)) + 1.1e-5f * leaf.extent * leaf.extent;
+    leaf.min_area = 4e-3f * square_root(largest_squared_area(leaf)) + 1.1e-5f * leaf.extent * leaf.extent;
 }
 
 namespace {

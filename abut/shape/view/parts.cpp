@@ -1,3 +1,4 @@
+#include <abut/math/simd/square_root.hpp>
 #include <abut/shape/view/mapped_box.hpp>
 #include <abut/shape/view/view.hpp>
 
@@ -54,7 +55,7 @@ double max_local_length(const Placement<D>& placement, const Affine<D>& to_local
     if (placement.similar) return 1 / placement.scale;
     double sum = 0;
     for (const DVec<D>& column : to_local.column) sum += length_squared(column);
-    return std::sqrt(sum);
+    return square_root(sum);
 }
 
 /// Grows the box until some part is found. Then searches once more up to the distance of that part, since a nearer one
@@ -124,7 +125,7 @@ void each_part_along(const Composite<D>& composite, const MovingBox<D>& box, Par
                 squares += factor * factor;
                 half += std::abs(factor) * box.half[j];
             }
-            own.half[i] = half + std::sqrt(squares) * (composite.radius + tolerance) + composite.inner_radius;
+            own.half[i] = half + square_root(squares) * (composite.radius + tolerance) + composite.inner_radius;
         }
         const auto place_and_visit = [&](const Convex<D>& part, std::uint32_t index) -> float {
             return visit(placed_part(part, composite), index);

@@ -1,3 +1,4 @@
+#include <abut/math/simd/square_root.hpp>
 #include <abut/shape/view/mapped_box.hpp>
 #include <abut/shape/view/view.hpp>
 
@@ -76,7 +77,7 @@ double min_scale_factor(const Placement<D>& placement) {
         }
         bound = std::min(bound, max_row_sum);
     }
-    return bound > 0 ? 1 / std::sqrt(bound) : 0;
+    return bound > 0 ? 1 / square_root(bound) : 0;
 }
 
 template <int D>

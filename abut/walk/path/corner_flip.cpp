@@ -1,6 +1,5 @@
+#include <abut/math/simd/square_root.hpp>
 #include <abut/walk/path/corner_flip.hpp>
-
-#include <cmath>
 
 namespace abut::detail {
 namespace {
@@ -79,7 +78,7 @@ private:
     /// Compares the angle between two directions with 180 degrees. The second is less than 540 degrees on.
     bool is_less_than_half(const DVec<2>& from, const DVec<2>& to) const {
         const double sine = (corner_.left ? -1 : 1) * cross(from, to);
-        const double min_sine = tolerance * std::sqrt(dot(from, from) * dot(to, to));
+        const double min_sine = tolerance * square_root(dot(from, from) * dot(to, to));
         return sine > min_sine || (sine >= -min_sine && dot(from, to) > 0);
     }
 

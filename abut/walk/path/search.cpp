@@ -1,12 +1,12 @@
 #include <abut/math/detail/no_index.hpp>
 #include <abut/math/simd/compiler-inl.h>
+#include <abut/math/simd/square_root.hpp>
 #include <abut/walk/path/search.hpp>
 #include <abut/walk/path/string_pulling.hpp>
 
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
 #include <limits>
 #include <memory>
 
@@ -235,7 +235,7 @@ private:
         const DVec<3> across = DVec<3>(walk.corner[left_corner == side ? next_corner(side) : side]) - left_end;
         const DVec<3> to_goal = goal_ - left_end;
         const double square = dot(across, across), fraction = dot(to_goal, across) / square;
-        const double distance_beyond = std::sqrt(std::max(dot(to_goal, to_goal) / square - fraction * fraction, 0.0));
+        const double distance_beyond = square_root(std::max(dot(to_goal, to_goal) / square - fraction * fraction, 0.0));
         const DVec<2> along = right - left, ahead{-along.y, along.x};
         const DVec<2> goal = left + along * fraction + ahead * distance_beyond;
 

@@ -1,4 +1,5 @@
 #include <abut/math/detail/next_float.hpp>
+#include <abut/math/simd/square_root.hpp>
 #include <abut/world/detail/bounding_ball.hpp>
 
 #include <cmath>
@@ -22,7 +23,7 @@ template <int D>
 BoundingBall<D> around_discs(const Convex<D>& convex) {
     const DVec<D> a(convex.own[0]), b(convex.own[1]);
     const double widest = static_cast<double>(std::max(convex.disc_radius[0], convex.disc_radius[1]));
-    return {(a + b) * 0.5, std::sqrt(0.25 * length_squared(b - a) + widest * widest)};
+    return {(a + b) * 0.5, square_root(0.25 * length_squared(b - a) + widest * widest)};
 }
 
 /// The ball of a convex core, in its own frame.
@@ -61,7 +62,7 @@ double max_stretch(const Affine<D>& map) {
         for (const DVec<D>& column : map.column) sum += std::abs(dot(row, column));
         max_sum = std::max(max_sum, sum);
     }
-    return std::sqrt(max_sum);
+    return square_root(max_sum);
 }
 
 template <int D, class Shape>

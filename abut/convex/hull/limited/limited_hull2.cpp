@@ -7,6 +7,7 @@
 #include <abut/convex/hull/limited/round_outwards.hpp>
 #include <abut/math/dvec.hpp>
 #include <abut/math/predicates.hpp>
+#include <abut/math/simd/square_root.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -77,9 +78,9 @@ std::optional<Hull3> limited_flat_hull(const Hull3& full, std::span<const Vec3> 
 
     // The slopes of the plane, and a map of the projection that restores lengths: a root of (1 + x x, x y; x y, 1 + y
     // y).
-    const double x = -normal[right] / normal[up], y = -normal[ahead] / normal[up], root = std::sqrt(1 + x * x);
+    const double x = -normal[right] / normal[up], y = -normal[ahead] / normal[up], root = square_root(1 + x * x);
     Affine<2> to_plane;
-    to_plane.column = {DVec<2>(root, 0), DVec<2>(x * y / root, std::sqrt(1 + x * x + y * y) / root)};
+    to_plane.column = {DVec<2>(root, 0), DVec<2>(x * y / root, square_root(1 + x * x + y * y) / root)};
     std::vector<Vec2> seen, inner;
     for (const Vec3& point : points) seen.emplace_back(point[right], point[ahead]);
     for (const std::uint32_t i : hull_loop(seen)) inner.push_back(seen[i]);

@@ -1,9 +1,9 @@
 #include <abut/convex/hull/hull_assembly.hpp>
 #include <abut/convex/hull/limited/outer_hull.hpp>
 #include <abut/math/dvec.hpp>
+#include <abut/math/simd/square_root.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace abut::detail {
@@ -142,7 +142,7 @@ void OuterHull::gather_ring(std::uint32_t point, std::uint32_t half_edge) {
     };
     gather(point);
     if (around_edge) gather(end);
-    size_ = std::sqrt(size_);
+    size_ = square_root(size_);
 }
 
 /// Six times the volume that is added if cones from the ring to `apex`, relative to the middle, replace the star.

@@ -3,6 +3,7 @@
 
 #include <abut/convex/ray/closed_forms.hpp>
 #include <abut/math/detail/set_affine.hpp>
+#include <abut/math/simd/square_root.hpp>
 #include <abut/query/detail/closed_form/placed_polygon2.hpp>
 #include <abut/query/raycast.hpp>
 
@@ -31,7 +32,7 @@ bool hit_sphere(const Ray3& ray, const ShapeRef<3>& given, std::optional<Hit<3>>
     const DVec<3> passes = center - unit_direction * nearest;
     const double half_chord = radius * radius - length_squared(passes);
     if (!(nearest > 0 && half_chord >= 0)) return true;
-    const double half = std::sqrt(half_chord), along = nearest - half;
+    const double half = square_root(half_chord), along = nearest - half;
     if (along > length) return true;
     Hit<3>& hit = result.emplace();
     hit.distance = static_cast<float>(along);
@@ -118,7 +119,7 @@ bool hit_circle(const Ray<2>& ray, const ShapeRef<2>& given, std::optional<Hit<2
         return false;
     const double half_chord = radius * radius - parts[1] * parts[1];
     if (!(parts[0] > 0 && half_chord >= 0)) return true;
-    const double half = std::sqrt(half_chord), along = parts[0] - half;
+    const double half = square_root(half_chord), along = parts[0] - half;
     if (along > length) return true;
     Hit<2>& hit = result.emplace();
     hit.distance = static_cast<float>(along);

@@ -1,5 +1,6 @@
 #include <abut/convex/pairs/core_pair2.hpp>
 #include <abut/convex/toi/moving_polygon2.hpp>
+#include <abut/math/simd/square_root.hpp>
 #include <abut/query/detail/closed_form/closed_form.hpp>
 #include <abut/query/detail/closed_form/placed_polygon2.hpp>
 #include <abut/query/detail/part_pairs.hpp>
@@ -77,7 +78,7 @@ inline PairAnswer find_round_impact(Double2 between, Double2 motion, const Relat
     }
     const double chord = relative.radius * relative.radius * square - across * across;
     if (!(0.5 * chord > relative.tolerances.slide * relative.radius * square)) return PairAnswer::unknown;
-    const double half = std::sqrt(chord);
+    const double half = square_root(chord);
     impact.enters = (ahead - half) * per_square;
     impact.closing = half * per_radius;
     impact.normal = (between - motion * lanes::double2(impact.enters)) * lanes::double2(per_radius);
@@ -213,7 +214,7 @@ PairAnswer sweep_cores(const PlacedPolygon& polygon_a, const PlacedPolygon& poly
     const Core &a = pair.shape(0), &b = pair.shape(1);
     RelativeMotion relative;
     relative.motion = motions[0] - motions[1];
-    relative.length = std::sqrt(lanes::dot(relative.motion, relative.motion)[0]);
+    relative.length = square_root(lanes::dot(relative.motion, relative.motion)[0]);
     relative.radius = a.radius() + b.radius();
     // Beyond this length of motion nothing can be hit.
     const double far = 2 * (pair.scale() + std::abs(relative.radius));
@@ -236,7 +237,7 @@ PairAnswer sweep_circles(const ShapeRef<2>& given_a, const Vec2& motion_a, const
     const double far = 2 * (std::abs(between[0]) + std::abs(between[1]) + std::abs(radius_a + radius_b));
     RelativeMotion relative;
     relative.motion = moves_a - lanes::loaded(&motion_b.x);
-    relative.length = std::sqrt(lanes::dot(relative.motion, relative.motion)[0]);
+    relative.length = square_root(lanes::dot(relative.motion, relative.motion)[0]);
     relative.max_fraction = 1;
     relative.radius = radius_a + radius_b;
     relative.tolerances = SweepTolerances({radius_a, 0}, {radius_b, 0}, far);

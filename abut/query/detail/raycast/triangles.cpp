@@ -1,3 +1,4 @@
+#include <abut/math/simd/square_root.hpp>
 #include <abut/query/detail/raycast/by_advance.hpp>
 #include <abut/shape/mesh/rays.hpp>
 
@@ -34,7 +35,7 @@ double placement_error_of(const Composite<3>& composite, const Affine<3>& back, 
     double squares = 0;
     for (std::size_t i = 0; i < 3; ++i)
         squares += length_squared(back.column[i]) * length_squared(composite.place.column[i]);
-    return result + 2e-7 * std::sqrt(squares) * largest(extent);
+    return result + 2e-7 * square_root(squares) * largest(extent);
 }
 
 /// Returns false if the shape isn't known by its triangles, or its numbers exceed the range of floats.

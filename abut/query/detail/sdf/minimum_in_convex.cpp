@@ -7,6 +7,7 @@
 // kinks; it is exact at the corners, so that boxes around a minimum shrink fast to it (envelope_bound).
 // Descents improve points (conditional_gradient.hpp).
 
+#include <abut/math/simd/square_root.hpp>
 #include <abut/query/detail/sdf/conditional_gradient.hpp>
 
 #include <algorithm>
@@ -189,8 +190,8 @@ private:
             if (!(square > 0)) continue;
             const double gap = support.lower_bound - dot(support.gradient, box.center);
             if (gap > sum_along(support.gradient, box.half)) return false;
-            if (gap / std::sqrt(square) > behind) {
-                behind = gap / std::sqrt(square);
+            if (gap / square_root(square) > behind) {
+                behind = gap / square_root(square);
                 nearest = &support;
             }
         }

@@ -1,4 +1,5 @@
 #include <abut/convex/manifold/reduce.hpp>
+#include <abut/math/simd/square_root.hpp>
 #include <abut/query/detail/solid/contact_area.hpp>
 #include <abut/query/detail/solid/interior_overlap.hpp>
 
@@ -178,7 +179,7 @@ private:
                 const DVec<3> across = cross(along_a, along_b);
                 const double squared = length_squared(across);
                 if (!(squared > 1e-12 * length_squared(along_a) * length_squared(along_b))) continue;
-                const double size = std::sqrt(squared);
+                const double size = square_root(squared);
                 if (!any_normal && std::abs(dot(across, normal_)) < same_direction * size) continue;
                 if (std::abs(dot(across, between)) > tolerance_ * size) continue;
                 const double s = dot(cross(between, along_b), across) / squared,

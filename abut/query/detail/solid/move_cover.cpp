@@ -1,4 +1,5 @@
 #include <abut/math/dvec.hpp>
+#include <abut/math/simd/square_root.hpp>
 #include <abut/query/closest.hpp>
 #include <abut/query/detail/solid/move_cover.hpp>
 #include <abut/query/detail/solid/slide_interval.hpp>
@@ -172,7 +173,7 @@ void MoveCover::set_spans(const DVec<3>& direction, double smaller) {
     for (std::size_t i = 0; i < ball_count_; ++i) {
         const double along = x_[i] * direction.x + y_[i] * direction.y + z_[i] * direction.z;
         const double lost = smaller < radius_[i] ? smaller * (2 * radius_[i] - smaller) : radius_[i] * radius_[i];
-        const double half = std::sqrt(std::max(0.0, along * along - beyond_[i] - lost));
+        const double half = square_root(std::max(0.0, along * along - beyond_[i] - lost));
         from_[i] = along - half;
         to_[i] = along + half;
     }

@@ -1,5 +1,6 @@
 #include <abut/math/detail/next_float.hpp>
 #include <abut/math/dvec.hpp>
+#include <abut/math/simd/square_root.hpp>
 #include <abut/query/detail/solid/touching_moves.hpp>
 
 #include <algorithm>
@@ -131,7 +132,7 @@ std::optional<WayBetweenEdges> way_between(const DVec<3>& from, const DVec<3>& a
         return std::nullopt;
     if (!(squared > parallel_sine * parallel_sine * length_squared(along) * length_squared(other_along)))
         return std::nullopt;
-    const double size = std::sqrt(squared);
+    const double size = square_root(squared);
     return WayBetweenEdges{across / (height < 0 ? -size : size), std::abs(height) / size};
 }
 

@@ -15,6 +15,7 @@
 // Other engines know the edges of one mesh, or its triangles near: the ghost vertices of Box2D's chains, Bullet's
 // btInternalEdgeUtility and Jolt's InternalEdgeRemovingCollector.
 
+#include <abut/math/simd/square_root.hpp>
 #include <abut/query/detail/surface/closest_points.hpp>
 
 #include <optional>
@@ -94,7 +95,7 @@ template <int D>
 bool covers_contact(const DVec<D>& normal, double depth, const DVec<D>& other, double other_depth, double size) {
     const double cosine = dot(normal, other);
     if (cosine < 0.99) return false;
-    return depth > other_depth - size * (surface_probe_scale + std::sqrt(std::max(0.0, 2 * (1 - cosine))));
+    return depth > other_depth - size * (surface_probe_scale + square_root(std::max(0.0, 2 * (1 - cosine))));
 }
 
 extern template class EdgeFilter<2>;

@@ -1,6 +1,7 @@
 #include <abut/convex/point_soa.hpp>
 #include <abut/convex/ray/ball.hpp>
 #include <abut/convex/ray/portal.hpp>
+#include <abut/math/simd/square_root.hpp>
 #include <abut/query/detail/sweep/linear.hpp>
 #include <abut/query/detail/sweep/tolerances.hpp>
 
@@ -64,13 +65,13 @@ double min_size(const Convex<D>& part) {
                 const DVec<D> first(part.vertices()[0]);
                 for (std::uint32_t i = 1; i < part.count; ++i)
                     longest = std::max(longest, length_squared(DVec<D>(part.vertices()[i]) - first));
-                longest = 0.5 * std::sqrt(longest);
+                longest = 0.5 * square_root(longest);
             }
             return part.radius + part.scale * longest;
         }
     }
     // `size` is at most this factor above the radius of the least ball around the core.
-    return part.radius + (size(part) - part.radius) / std::sqrt(static_cast<double>(D));
+    return part.radius + (size(part) - part.radius) / square_root(static_cast<double>(D));
 }
 template <int D>
 PartExtent part_extent(const Convex<D>& part) {

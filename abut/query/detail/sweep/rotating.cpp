@@ -2,6 +2,7 @@
 #include <abut/convex/toi/separation_function.hpp>
 #include <abut/convex/tolerance.hpp>
 #include <abut/math/detail/rigid_path.hpp>
+#include <abut/math/simd/square_root.hpp>
 #include <abut/query/detail/one_sided.hpp>
 #include <abut/query/detail/part_pairs.hpp>
 #include <abut/query/detail/surface/closest_points.hpp>
@@ -110,7 +111,7 @@ private:
         const DVec<D> own = place.transposed(point - place.offset);
         const double first = gap_at(span.from, place_at(path, span.from).point(own));
         if (!(first >= 0)) return false;
-        const double time = span.to - span.from, root_sum = std::sqrt(first) + std::sqrt(last);
+        const double time = span.to - span.from, root_sum = square_root(first) + square_root(last);
         return 0.5 * relative_motion_bounds(path, frame, length(own)).acceleration * time * time <= root_sum * root_sum;
     }
 
