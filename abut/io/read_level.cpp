@@ -2,12 +2,14 @@
 #include <abut/io/file/read_file.hpp>
 #include <abut/io/file/referenced_files.hpp>
 #include <abut/io/file/scanner.hpp>
+#include <abut/io/file/size_limit.hpp>
 #include <abut/io/read_level.hpp>
 #include <abut/io/svg/read_svg.hpp>
 #include <abut/io/tiled/read_tiled.hpp>
 
+#include <optional>
 #include <string>
-#include <system_error>
+#include <utility>
 #include <vector>
 
 namespace abut {
@@ -18,18 +20,6 @@ namespace {
 
 // The parsed tree takes about ten times as much memory as the text.
 constexpr std::size_t max_bytes = std::size_t{256} << 20;
-
-Problem too_large(std::uintmax_t bytes) {
-    return {ProblemCode::too_large,
-            "has " + std::to_string(bytes >> 20) + " MB; the limit is " + std::to_string(max_bytes >> 20) + " MB"};
-}
-
-Result<std::vector<std::byte>> read_limited_file(const std::filesystem::path& file) {
-    std::error_code error;
-    const std::uintmax_t size = std::filesystem::file_size(file, error);
-    if (!error && size > max_bytes) return too_large(size);
-    return read_file(file);
-}
 
 bool is_gzip(std::span<const std::byte> bytes) {
     return bytes.size() > 2 && bytes[0] == std::byte{0x1f} && bytes[1] == std::byte{0x8b};
@@ -48,7 +38,7 @@ Result<Level> read_level(std::span<const std::byte> bytes, std::string_view exte
                          const LevelOptions& options) {
     const std::string ending = lower_case(std::string(extension));
     if (bytes.empty()) return Problem{ProblemCode::empty_input, "is empty"};
-    if (bytes.size() > max_bytes) return too_large(bytes.size());
+    if (std::optional<Problem> problem = check_size(bytes.size(), max_bytes)) return *std::move(problem);
     if (options.tolerance && !(*options.tolerance > 0))
         return Problem{ProblemCode::bad_argument, "the tolerance must be above zero"};
     if (ending == ".tmx" || ending == ".tmj" || ending == ".json")
@@ -62,14 +52,14 @@ Result<Level> read_level(std::span<const std::byte> bytes, std::string_view exte
 }
 
 Result<Level> read_level(const std::filesystem::path& file, const LevelOptions& options) {
-    const Result<std::vector<std::byte>> bytes = read_limited_file(file);
+    const Result<std::vector<std::byte>> bytes = read_file(file, max_bytes);
     if (!bytes) return bytes.problem();
     const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
     const ReferencedFiles files(folder, options.allow_outside);
     const auto open = [&](const std::string& name) -> Result<std::vector<std::byte>> {
         const Result<std::filesystem::path> path = files.find(name);
         if (!path) return path.problem();
-        return read_limited_file(*path);
+        return read_file(*path, max_bytes);
     };
     return read_level(*bytes, file.extension().string(), open, options);
 }

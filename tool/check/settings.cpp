@@ -8,6 +8,11 @@
 namespace abut::tool {
 namespace {
 
+// Where its address is taken, a function has its true type in WebAssembly only if the type of its result is complete.
+template <class... Values>
+constexpr bool are_complete = (... && (sizeof(Result<Values>) > 0));
+static_assert(are_complete<float, std::size_t, Character, UpDirection, GapRange, PairPattern, IgnorePattern>);
+
 // Reads the values of options, and keeps the first Problem.
 class Reader {
 public:

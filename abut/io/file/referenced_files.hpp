@@ -3,13 +3,12 @@
 // Files that a scene or level refers to by name. Access is restricted to the folder of the referring file and its
 // subfolders, unless files outside are allowed.
 
+#include <abut/io/file/file_names.hpp>
 #include <abut/math/result.hpp>
 
 #include <cstddef>
 #include <filesystem>
-#include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace abut::detail {
@@ -33,17 +32,5 @@ private:
     std::filesystem::path real_folder_;  ///< canonical: without symbolic links
     bool allow_outside_;
 };
-
-/// True if the Problem reports a name outside of the folder.
-bool is_outside(const Problem& problem);
-/// The Problem for a name outside of the folder.
-Problem outside_problem();
-
-/// Checks the text of a name only, without the file system. Returns a Problem if the name is empty, has a scheme other
-/// than "file", or is outside of the folder and that is not allowed.
-std::optional<Problem> check_name(std::string_view name, bool allow_outside);
-
-/// The name in single quotes for a message, cut after 200 characters.
-std::string quoted_name(std::string_view name);
 
 }  // namespace abut::detail

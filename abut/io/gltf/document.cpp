@@ -1,3 +1,4 @@
+#include <abut/io/file/parse_json-inl.h>
 #include <abut/io/gltf/container.hpp>
 #include <abut/io/gltf/document.hpp>
 #include <abut/io/gltf/extensions-inl.h>
@@ -338,18 +339,6 @@ Result<Document> DocumentReader::read(std::span<const std::byte> binary) {
     return std::move(document_);
 }
 
-// nlohmann's parser reports the position of an error only by an exception.
-Result<Json> parse_json(std::string_view text) {
-    while (!text.empty() && text.back() == '\0') text.remove_suffix(1);
-    try {
-        return Json::parse(text);
-    } catch (const Json::parse_error& error) {
-        return Problem{ProblemCode::bad_format, "JSON: syntax error at byte " + std::to_string(error.byte), error.byte};
-    } catch (const Json::exception&) {
-        return Problem{ProblemCode::bad_format, "JSON: a number is too large"};
-    }
-}
-
 }  // namespace
 
 Result<Document> parse(std::span<const std::byte> bytes, bool binary_container) {
@@ -359,7 +348,8 @@ Result<Document> parse(std::span<const std::byte> bytes, bool binary_container) 
         if (!opened) return opened.problem();
         container = *opened;
     }
-    const Result<Json> json = parse_json(container.json);
+    while (!container.json.empty() && container.json.back() == '\0') container.json.remove_suffix(1);
+    const Result<Json> json = detail::parse_json(container.json);
     if (!json) return json.problem();
     if (!json->is_object()) return Problem{ProblemCode::bad_format, "JSON: an object was expected"};
     return DocumentReader(*json).read(container.binary);

@@ -1,3 +1,4 @@
+#include <abut/io/file/parse_json-inl.h>
 #include <abut/io/tiled/cells.hpp>
 #include <abut/io/tiled/fields.hpp>
 
@@ -269,15 +270,9 @@ void JsonReader::object_template(const Json& json, Template& to) {
 
 template <class T, class Read>
 Result<T> read(std::span<const std::byte> bytes, Files* files, Read read_it) {
-    const auto* first = reinterpret_cast<const char*>(bytes.data());
-    Json json;
-    try {
-        json = Json::parse(first, first + bytes.size());
-    } catch (const Json::parse_error& error) {
-        return Problem{ProblemCode::bad_format, "JSON: syntax error at byte " + std::to_string(error.byte), error.byte};
-    } catch (const Json::exception&) {
-        return Problem{ProblemCode::bad_format, "JSON: a number is too large"};
-    }
+    const Result<Json> parsed = detail::parse_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    if (!parsed) return parsed.problem();
+    const Json& json = *parsed;
     if (!json.is_object()) return Problem{ProblemCode::bad_format, "JSON: an object was expected"};
     T result;
     Map* map = nullptr;
