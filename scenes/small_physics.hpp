@@ -112,6 +112,8 @@ public:
         bodies_.push_back(body);
     }
 
+    void set_velocity(std::size_t body, const Real<D>& velocity) { bodies_[body + 1].velocity = velocity; }
+
     void step(double seconds) {
         world.update();
         begin_points();

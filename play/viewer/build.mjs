@@ -16,6 +16,7 @@ const result = await build({
     legalComments: "inline",
     write: false,
 });
-const parts = { STYLE: await readFile(here("src/page.css"), "utf8"), SCRIPT: result.outputFiles[0].text };
+const styles = await Promise.all(["src/parts.css", "src/page.css"].map((name) => readFile(here(name), "utf8")));
+const parts = { STYLE: styles.join(""), SCRIPT: result.outputFiles[0].text };
 const page = await readFile(here("src/page.html"), "utf8");
 await writeFile(out, page.replace(/@(STYLE|SCRIPT)@/g, (_, part) => parts[part]));

@@ -116,7 +116,7 @@ export function radiusOf(report: Report, finding: Finding): number {
     return Math.max(1.2 * Math.min(smaller, 20 * (spread + (finding.depth ?? 0)) || smaller), 2 * spread, 1e-6);
 }
 
-/** What page.ts needs of a view in space or in the plane. */
+/** What a pane needs of a view in space or in the plane. */
 export interface View {
     readonly element: HTMLElement;
     show(finding: Finding | undefined): void;
@@ -124,6 +124,7 @@ export interface View {
     zoom(factor: number): void;
     /** Steps to the right and up. */
     turn(x: number, y: number): void;
+    dispose(): void;
 }
 
 /** The colours of the first and the second party. */

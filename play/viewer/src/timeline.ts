@@ -79,7 +79,7 @@ export class Timeline {
         requestAnimationFrame(() => this.step());
     }
 
-    private stop(): void {
+    stop(): void {
         this.started = undefined;
         this.play.textContent = "▶";
         this.play.setAttribute("aria-label", "Play");

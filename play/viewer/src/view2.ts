@@ -56,7 +56,8 @@ export class View2 implements View {
     private finding: Finding | undefined;
     private center: Point = [0, 0];
     private radius = 1;
-    private isPending = false;
+    private pending = 0;
+    private readonly observer = new ResizeObserver(() => this.draw());
 
     constructor(private readonly report: Report) {
         this.element.className = "canvas";
@@ -74,8 +75,7 @@ export class View2 implements View {
             event.preventDefault();
             this.zoom(Math.exp(-event.deltaY / 500));
         });
-        new ResizeObserver(() => this.draw()).observe(this.element);
-        matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.draw());
+        this.observer.observe(this.element);
         this.show(undefined);
     }
 
@@ -112,16 +112,19 @@ export class View2 implements View {
         this.draw();
     }
 
+    dispose(): void {
+        this.observer.disconnect();
+        cancelAnimationFrame(this.pending);
+    }
+
     /** Pixels a unit. */
     private scale(): number {
         return Math.min(this.element.clientWidth, this.element.clientHeight) / (2 * this.radius);
     }
 
     private draw(): void {
-        if (this.isPending) return;
-        this.isPending = true;
-        requestAnimationFrame(() => {
-            this.isPending = false;
+        this.pending ||= requestAnimationFrame(() => {
+            this.pending = 0;
             this.drawNow();
         });
     }

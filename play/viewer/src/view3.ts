@@ -6,6 +6,7 @@ import {
     BufferAttribute,
     BufferGeometry,
     Color,
+    ColorManagement,
     ConeGeometry,
     CylinderGeometry,
     DirectionalLight,
@@ -14,6 +15,7 @@ import {
     Group,
     LineBasicMaterial,
     LineSegments,
+    LinearSRGBColorSpace,
     Matrix4,
     Mesh,
     MeshBasicMaterial,
@@ -174,11 +176,14 @@ export class View3 implements View {
     private readonly shown: readonly Shown[];
     private readonly named: { element: HTMLElement; at: () => Vector3 }[] = [];
     private marks = new Group();
-    private isPending = false;
+    private pending = 0;
+    private readonly observer = new ResizeObserver(() => this.resize());
 
     /** Throws if there is no WebGL. */
     constructor(private readonly report: Report) {
         this.renderer = new WebGLRenderer({ antialias: true, alpha: true });
+        // A page that takes colours as they are shows them so.
+        if (!ColorManagement.enabled) this.renderer.outputColorSpace = LinearSRGBColorSpace;
         this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
         this.element.className = "canvas";
         this.labels.className = "labels";
@@ -193,7 +198,7 @@ export class View3 implements View {
         this.camera.add(lamp);
         this.controls = new OrbitControls(this.camera, this.renderer.domElement);
         this.controls.addEventListener("change", () => this.draw());
-        new ResizeObserver(() => this.resize()).observe(this.element);
+        this.observer.observe(this.element);
         this.setTime(report.samples[0] ?? 0);
         this.show(undefined);
     }
@@ -249,6 +254,14 @@ export class View3 implements View {
         this.camera.position.copy(this.controls.target).add(offset);
         this.controls.update();
         this.draw();
+    }
+
+    dispose(): void {
+        this.observer.disconnect();
+        cancelAnimationFrame(this.pending);
+        this.controls.dispose();
+        this.renderer.dispose();
+        this.renderer.forceContextLoss();
     }
 
     /** A little below the highest point in the middle of an object. */
@@ -335,10 +348,8 @@ export class View3 implements View {
 
     /** Draws once before the next refresh of the screen. */
     private draw(): void {
-        if (this.isPending) return;
-        this.isPending = true;
-        requestAnimationFrame(() => {
-            this.isPending = false;
+        this.pending ||= requestAnimationFrame(() => {
+            this.pending = 0;
             this.renderer.render(this.scene, this.camera);
             this.placeLabels();
         });
