@@ -1,159 +1,102 @@
-// The loaded module with what its functions need: memory, types, handles and callbacks.
-import { AbutError } from './calls.js';
-import { Arena, ARRAYS, Types } from './memory.js';
+// The loaded module with what its calls need: memory, owners, errors and callbacks.
+import { AbutError, describe } from './arguments.js';
+import { Memory } from './memory.js';
 import { function_pointer } from './module.js';
 
-/** abut_walk_mesh becomes WalkMesh. */
-export const class_name = (c_name) => c_name.slice(5).split('_').map((part) => part[0].toUpperCase() + part.slice(1)).join('');
-
-/** What the library owns. `dispose` frees it; else it is freed some time after the last use. */
-export class Handle {
-    /** @internal */ pointer = 0;
-
-    dispose() {
-        this.constructor.release(this);
-    }
-    [Symbol.dispose ?? Symbol.for('Symbol.dispose')]() {
-        this.dispose();
-    }
-}
-
 export class Library {
-    constructor(exports, api) {
-        this.exports = exports;
-        this.types = new Types(api);
-        this.arena = new Arena(exports);
-        this.classes = new Map();
-        this.shapes = null;
-        this.#callbacks = new Set(api.callbacks.map((callback) => callback.name));
-        this.#codes = api.enums.find((entry) => entry.name === 'abut_code').values.map((value) => value.name.slice(5));
-        this.#registry = new FinalizationRegistry(({ release, pointer }) => release(pointer));
-        for (const handle of api.handles) this.classes.set(handle.name, this.#handle_class(handle.name));
-    }
-    #callbacks;
+    // Classes of handles, and dimensions of plain shapes by their type.
+    classes = {};
+    kinds = new Map();
     #codes;
-    #registry;
+    #registry = new FinalizationRegistry(({ pointer, release }) => release(pointer));
     #pointers = new WeakMap();
 
-    #handle_class(c_name) {
-        const library = this;
-        const release = this.exports[`${c_name}_release`];
-        const name = class_name(c_name);
-        return {
-            [name]: class extends Handle {
-                static c_name = c_name;
-                static release(handle) {
-                    if (handle.pointer === 0) return;
-                    library.#registry.unregister(handle);
-                    release(handle.pointer);
-                    handle.pointer = 0;
-                }
-            },
-        }[name];
+    constructor(exports, codes) {
+        this.exports = exports;
+        this.memory = new Memory(exports);
+        this.#codes = codes;
     }
 
-    is_handle(c_name) {
-        return this.classes.has(c_name);
-    }
-    is_callback(c_name) {
-        return this.#callbacks.has(c_name);
-    }
-
-    /** A new object for a handle of C. */
-    owning(c_name, pointer) {
-        return this.adopt(Object.create(this.classes.get(c_name).prototype), c_name, pointer);
-    }
-    /** Makes an object the owner of a handle of C. */
-    adopt(object, c_name, pointer) {
-        object.pointer = pointer;
-        this.#registry.register(object, { release: this.exports[`${c_name}_release`], pointer }, object);
-        return object;
-    }
-
-    /** Ends the ownership of an object without freeing what it owns. */
-    forget(object) {
-        this.#registry.unregister(object);
-        object.pointer = 0;
-    }
-
-    /** The pointer of a handle, or of a temporary one of a plain shape, which `release` frees after the call. */
-    handle_of(c_name, value, release) {
-        const wanted = this.classes.get(c_name);
-        if (value instanceof wanted) {
-            if (value.pointer === 0) throw new TypeError(`abut: this ${wanted.name} was disposed of`);
-            return value.pointer;
-        }
-        if (c_name === 'abut_shape2' || c_name === 'abut_shape3') return this.shapes.temporary(c_name, value, release);
-        throw new TypeError(`abut: a ${wanted.name} is needed, not ${value?.constructor?.name ?? value}`);
-    }
-
+    /** Throws what a call of C reports, and looks whether the memory has grown. */
     check(code) {
-        if (code === 0) return;
-        throw new AbutError(this.#codes[code], this.text(this.exports.abut_last_error()), this.exports.abut_last_error_index() >>> 0);
+        if (code !== 0) throw this.#error(code);
+        if (this.memory.u8.length === 0) this.memory.refresh();
+    }
+    #error(code) {
+        this.memory.refresh();
+        return new AbutError(this.#codes[code], this.text(this.exports.abut_last_error()), this.exports.abut_last_error_index() >>> 0);
     }
 
     text(pointer) {
-        const bytes = new Uint8Array(this.arena.buffer);
-        return new TextDecoder().decode(bytes.slice(pointer, bytes.indexOf(0, pointer)));
+        const { u8 } = this.memory;
+        return new TextDecoder().decode(u8.slice(pointer, u8.indexOf(0, pointer)));
     }
 
-    buffer() {
-        return this.arena.within(() => {
-            const at = this.arena.allocate(4);
-            this.check(this.exports.abut_buffer_create(at));
-            return this.arena.view.getUint32(at, true);
-        });
+    // --- owners ---
+
+    /** A new object of a class for a handle of C; null for no handle. */
+    owning(cls, pointer) {
+        return pointer === 0 ? null : this.own(Object.create(cls.prototype), pointer);
     }
+    /** Makes an object the owner of a handle of C. */
+    own(object, pointer) {
+        object.pointer = pointer;
+        this.#registry.register(object, { pointer, release: object.release_pointer }, object);
+        return object;
+    }
+    dispose(handle) {
+        if (handle.pointer === 0) return;
+        this.#registry.unregister(handle);
+        handle.release_pointer(handle.pointer);
+        handle.pointer = 0;
+    }
+
+    pointer_of(handle) {
+        if (handle.pointer === 0) throw new TypeError(`abut: this ${handle.constructor.name} was disposed of`);
+        return handle.pointer;
+    }
+    /** The pointer of an object that must be of the class. */
+    pointer(handle, name) {
+        if (handle instanceof this.classes[name]) return this.pointer_of(handle);
+        throw new TypeError(`abut: a ${name} is needed, not ${handle?.constructor?.name ?? handle}`);
+    }
+
+    wrong_shape(dimension, value) {
+        const name = value?.type ?? value?.constructor?.name ?? describe(value);
+        const is_of_other = this.dimension_of(value) !== 0;
+        return new TypeError(`abut: a shape${is_of_other ? (dimension === 2 ? ' of the plane' : ' of space') : ''} is needed, not ${name}`);
+    }
+    /** 2 or 3, or 0 for what is no shape. */
+    dimension_of(shape) {
+        const kind = this.kinds.get(shape?.type);
+        if (kind !== undefined) return kind;
+        if (shape instanceof Object && shape.shape !== undefined && shape.type !== undefined) return this.dimension_of(shape.shape);
+        const { Shape2, Shape3 } = this.classes;
+        return Shape3 !== undefined && shape instanceof Shape3 ? 3 : Shape2 !== undefined && shape instanceof Shape2 ? 2 : 0;
+    }
+
+    // --- bytes ---
+
+    /** What a buffer of the library holds. */
+    bytes(buffer) {
+        const begin = this.exports.abut_buffer_data(buffer);
+        return this.memory.u8.slice(begin, begin + this.exports.abut_buffer_size(buffer));
+    }
+
+    // --- callbacks ---
 
     /** A function of JavaScript for C: one table entry for each function, as long as the module lives. */
-    callback(c_name, callback) {
+    callback(callback, count) {
         let pointer = this.#pointers.get(callback);
         if (pointer === undefined) {
-            const id = this.types.get('abut_id');
-            const wrapped = (_context, ...ids) => (callback(...ids.map((at) => id.get(this.arena.view, at))) ? 1 : 0);
-            pointer = function_pointer(this.exports, wrapped, c_name === 'abut_accepts_pair' ? 3 : 2);
+            const id = (at) => ({ index: this.memory.u32[at >> 2], generation: this.memory.u32[(at >> 2) + 1] });
+            const call = (_context, ...ids) => {
+                if (this.memory.u8.length === 0) this.memory.refresh();
+                return callback(...ids.map(id)) ? 1 : 0;
+            };
+            pointer = function_pointer(this.exports, call, count);
             this.#pointers.set(callback, pointer);
         }
         return pointer;
-    }
-
-    /** An array of C by columns: numbers and vectors as one typed array, a struct as an object of those of its members. */
-    columns(type, at, count) {
-        if (!type.fields || type.fields.every((field) => field.type === type.fields[0].type && !field.length && !field.type.fields)) {
-            const number = type.fields ? type.fields[0].type.name : type.name;
-            const Typed = ARRAYS[number];
-            return new Typed(this.arena.buffer, at, (count * type.size) / Typed.BYTES_PER_ELEMENT).slice();
-        }
-        return this.#strided(type, at, type.size, count);
-    }
-
-    #strided(type, at, stride, count) {
-        const numbers = type.fields?.length && type.fields.every((field) => !field.type.fields && !field.length && field.type === type.fields[0].type);
-        if (!type.fields || numbers) {
-            // All elements of a column are as far apart as those of the array, and aligned as its numbers are.
-            const width = type.fields?.length ?? 1;
-            const Typed = ARRAYS[(type.fields?.[0].type ?? type).name];
-            const source = new Typed(this.arena.buffer);
-            const result = new Typed(count * width);
-            const step = stride / Typed.BYTES_PER_ELEMENT;
-            for (let i = 0, from = at / Typed.BYTES_PER_ELEMENT; i < count; ++i, from += step) for (let k = 0; k < width; ++k) result[i * width + k] = source[from + k];
-            return result;
-        }
-        const result = {};
-        for (const field of type.fields) {
-            if (!field.length) result[field.name] = this.#strided(field.type, at + field.offset, stride, count);
-            else result[field.name] = Array.from({ length: field.length }, (_, k) => this.#strided(field.type, at + field.offset + k * field.type.size, stride, count));
-        }
-        return result;
-    }
-
-    /** The lists of an update, which are the library's until the next one. */
-    events(at) {
-        const view = this.arena.view;
-        const events = this.types.get('abut_events').get(view, at);
-        const pair = this.types.get('abut_id_pair');
-        const list = (name) => Array.from({ length: events[`${name}_count`] }, (_, i) => pair.get(view, events[name] + i * pair.size));
-        const fractions = new Float32Array(this.arena.buffer, events.fractions, events.began_count).slice();
-        return { began: list('began'), stayed: list('stayed'), ended: list('ended'), fractions };
     }
 }

@@ -1,189 +1,122 @@
-// The memory of the WebAssembly module: how structs lie in it, and room for the arguments of a call.
+// The memory of the WebAssembly module: views of it, and space for the arguments of a call.
 
-const NUMBERS = {
-    float: { size: 4, get: (view, at) => view.getFloat32(at, true), set: (view, at, value) => view.setFloat32(at, value, true) },
-    double: { size: 8, get: (view, at) => view.getFloat64(at, true), set: (view, at, value) => view.setFloat64(at, value, true) },
-    uint32_t: { size: 4, get: (view, at) => view.getUint32(at, true), set: (view, at, value) => view.setUint32(at, value, true) },
-    int32_t: { size: 4, get: (view, at) => view.getInt32(at, true), set: (view, at, value) => view.setInt32(at, value, true) },
-    uint64_t: {
-        size: 8,
-        get: (view, at) => view.getBigUint64(at, true),
-        set: (view, at, value) => view.setBigUint64(at, BigInt(value), true),
-    },
-    uint8_t: { size: 1, get: (view, at) => view.getUint8(at), set: (view, at, value) => view.setUint8(at, value) },
-    bool: { size: 1, get: (view, at) => view.getUint8(at) !== 0, set: (view, at, value) => view.setUint8(at, value ? 1 : 0) },
-    abut_flag: { size: 4, get: (view, at) => view.getUint32(at, true) !== 0, set: (view, at, value) => view.setUint32(at, value ? 1 : 0, true) },
-};
-NUMBERS.size_t = NUMBERS.uint32_t;
+const STACK_SIZE = 1 << 16;
+// What arrays leave for the calls that a callback makes.
+const RESERVE = 1 << 13;
+const BYTES = { f32: 4, f64: 8, u32: 4, i32: 4, u64: 8, u8: 1 };
 
-/** The typed array of a number type. */
-export const ARRAYS = {
-    float: Float32Array,
-    double: Float64Array,
-    uint32_t: Uint32Array,
-    int32_t: Int32Array,
-    uint64_t: BigUint64Array,
-    uint8_t: Uint8Array,
-    bool: Uint8Array,
-    abut_flag: Uint32Array,
-};
-
-// Vectors and rotations are arrays of numbers; the other structs are objects.
-const VECTORS = new Set(['abut_vec2', 'abut_vec3', 'abut_turn', 'abut_quat']);
-// Objects may leave these out.
-const DEFAULTS = { abut_turn: [1, 0], abut_quat: [0, 0, 0, 1] };
-
-/** The types of the C API: `size`, `align`, and functions that read and write a value in memory. */
-export class Types {
-    constructor(api) {
-        this.all = new Map();
-        for (const [name, number] of Object.entries(NUMBERS)) this.all.set(name, { ...number, name, align: number.size, flat: { type: name, count: 1 } });
-        this.pointer = { ...NUMBERS.uint32_t, name: 'pointer', align: 4, flat: null };
-        for (const callback of api.callbacks) this.all.set(callback.name, this.pointer);
-        for (const struct of api.structs) this.all.set(struct.name, this.#struct(struct));
-    }
-
-    get(name) {
-        return this.all.get(name);
-    }
-
-    #struct({ name, members }) {
-        let offset = 0;
-        let align = 1;
-        const fields = members.map((member) => {
-            const type = member.pointers ? this.pointer : this.get(member.type);
-            offset = Math.ceil(offset / type.align) * type.align;
-            const field = { name: member.name, type, offset, length: member.array ?? 0, points: member.pointers > 0 };
-            offset += type.size * (member.array ?? 1);
-            align = Math.max(align, type.align);
-            return field;
-        });
-        const result = { name, size: Math.ceil(offset / align) * align, align, fields };
-        result.flat = flat_of(result);
-        if (VECTORS.has(name)) {
-            result.get = (view, at) => fields.map((field) => field.type.get(view, at + field.offset));
-            result.set = (view, at, value) => write_vector(result, view, at, value);
-        } else {
-            result.get = (view, at) => read_struct(result, view, at);
-            result.set = (view, at, value, extra) => write_struct(result, view, at, value, extra);
-        }
-        return result;
-    }
-}
-
-/** {type, count} if a struct is so many numbers of one type, else null. */
-function flat_of(struct) {
-    let count = 0;
-    let type = null;
-    for (const field of struct.fields) {
-        const inner = field.length || field.points ? null : field.type.flat;
-        if (!inner || (type && inner.type !== type)) return null;
-        type = inner.type;
-        count += inner.count;
-    }
-    return { type, count };
-}
-
-function write_vector(type, view, at, value) {
-    if (!value || value.length !== type.fields.length || typeof value[0] !== 'number')
-        throw new TypeError(`abut: an array of ${type.fields.length} numbers is needed, not ${describe(value)}`);
-    for (let i = 0; i < value.length; ++i) view.setFloat32(at + 4 * i, value[i], true);
-}
-
-function read_struct(type, view, at) {
-    const result = {};
-    for (const field of type.fields) {
-        if (!field.length) result[field.name] = field.type.get(view, at + field.offset);
-        else result[field.name] = Array.from({ length: field.length }, (_, i) => field.type.get(view, at + field.offset + i * field.type.size));
-    }
-    return trimmed(result);
-}
-
-// No hit is null, and a contact has the points that there are.
-function trimmed(answer) {
-    if ('found' in answer) {
-        if (!answer.found) return null;
-        delete answer.found;
-    }
-    if ('hit' in answer && answer.hit === null) return null;
-    if ('closest' in answer && 'id' in answer && answer.id.index === 0) return null;
-    if (Array.isArray(answer.points) && 'count' in answer) {
-        if (answer.count === 0) return null;
-        answer.points.length = answer.count;
-        delete answer.count;
-    }
-    return answer;
-}
-
-function write_struct(type, view, at, value, extra) {
-    if (value === null || typeof value !== 'object') throw new TypeError(`abut: an object with ${type.fields.map((f) => f.name).join(', ')} is needed, not ${describe(value)}`);
-    for (const name of Object.keys(value))
-        if (!type.fields.some((field) => field.name === name) && !extra?.has(name)) throw new TypeError(`abut: ${type.name.slice(5)} has no member ${name}`);
-    for (const field of type.fields) {
-        let member = value[field.name];
-        if (extra?.has(field.name)) member = extra.get(field.name);
-        if (member === undefined) member = DEFAULTS[field.type.name];
-        if (member === undefined) {
-            // Options begin as the library's defaults; of answers that are passed in, what is left out is 0.
-            continue;
-        }
-        if (field.length) member.forEach((one, i) => field.type.set(view, at + field.offset + i * field.type.size, one));
-        else field.type.set(view, at + field.offset, member);
-    }
-}
-
-export function describe(value) {
-    return value === null ? 'null' : Array.isArray(value) || ArrayBuffer.isView(value) ? `an array of ${value.length}` : typeof value;
-}
-
-/** Room in the module's memory for the arguments of one call after another. */
-export class Arena {
+export class Memory {
+    f32;
+    f64;
+    u32;
+    i32;
+    u64;
+    u8;
+    /** The length of the array that `array` has written last. */
+    rows = 0;
     #exports;
-    #begin;
     #next;
-    #large = [];
-    #view = null;
-    static size = 1 << 16;
+    #end;
+    // What ends with a call: pointers, how to free them, and how far the stack went when they were made.
+    #owned = [];
+    #highest = 0;
 
     constructor(exports) {
         this.#exports = exports;
-        this.#begin = exports.malloc(Arena.size);
-        this.#next = this.#begin;
+        this.#next = (exports.malloc(STACK_SIZE) + 7) & -8;
+        this.#end = this.#next + STACK_SIZE - 8;
+        this.refresh();
     }
 
-    /** A view of all memory, made anew when the memory has grown. */
-    get view() {
-        if (this.#view?.buffer !== this.#exports.memory.buffer) this.#view = new DataView(this.#exports.memory.buffer);
-        return this.#view;
-    }
-    get buffer() {
-        return this.#exports.memory.buffer;
+    /** Views of all memory. They lose their contents when the memory grows. */
+    refresh() {
+        const { buffer } = this.#exports.memory;
+        this.f32 = new Float32Array(buffer);
+        this.f64 = new Float64Array(buffer);
+        this.u32 = new Uint32Array(buffer);
+        this.i32 = new Int32Array(buffer);
+        this.u64 = new BigUint64Array(buffer);
+        this.u8 = new Uint8Array(buffer);
     }
 
-    /** So many bytes, cleared, until `release` of the mark before. */
-    allocate(size) {
-        const at = Math.ceil(this.#next / 8) * 8;
-        if (at + size <= this.#begin + Arena.size) {
-            this.#next = at + size;
-            new Uint8Array(this.buffer, at, size).fill(0);
+    /** Begins a call that needs so many bytes, a multiple of 8; `leave` of the result ends it. Calls may be nested. */
+    enter(size) {
+        if (this.u8.length === 0) this.refresh();
+        const at = this.#next;
+        if (at + size > this.#end) throw new RangeError('abut: too many calls within calls');
+        this.#next = at + size;
+        return at;
+    }
+    leave(at) {
+        this.#next = at;
+        if (this.#highest > at) this.#free(at);
+    }
+
+    /** So many bytes until the end of the call. */
+    take(size) {
+        const at = this.#next;
+        const next = at + ((size + 7) & -8);
+        if (next <= this.#end - RESERVE) {
+            this.#next = next;
             return at;
         }
         const pointer = this.#exports.malloc(size);
         if (pointer === 0) throw new RangeError(`abut: no memory for ${size} bytes`);
-        this.#large.push(pointer);
-        new Uint8Array(this.buffer, pointer, size).fill(0);
-        return pointer;
+        if (this.u8.length === 0) this.refresh();
+        return this.release_later(pointer, this.#exports.free);
     }
 
-    /** Calls `body`, and frees what it has allocated; calls may be nested. */
-    within(body) {
-        const next = this.#next;
-        const large = this.#large.length;
-        try {
-            return body();
-        } finally {
-            this.#next = next;
-            while (this.#large.length > large) this.#exports.free(this.#large.pop());
+    /** Frees a pointer at the end of the call. */
+    release_later(pointer, release) {
+        this.#highest = this.#next;
+        this.#owned.push({ pointer, release, height: this.#next });
+        return pointer;
+    }
+    #free(at) {
+        while (this.#owned.length > 0 && this.#owned.at(-1).height > at) {
+            const { pointer, release } = this.#owned.pop();
+            release(pointer);
         }
+        this.#highest = this.#owned.at(-1)?.height ?? 0;
+    }
+
+    /** Writes an array of C: of a typed array or an array of numbers, `width` for each element, or of an array of elements, which
+     * `write` writes. */
+    array(data, view, width, size, write, name) {
+        if (data === undefined || data === null) throw new TypeError(`abut: ${name} is needed`);
+        if (ArrayBuffer.isView(data) || typeof data[0] === 'number') return this.#numbers(data, view, width, name);
+        const elements = Array.isArray(data) ? data : Array.from(data);
+        const at = this.take(elements.length * size);
+        if (write === null) elements.forEach((one, i) => this[view].set(one, at / BYTES[view] + i * width));
+        else for (let i = 0; i < elements.length; ++i) write(at + i * size, elements[i]);
+        this.rows = elements.length;
+        return at;
+    }
+    #numbers(data, view, width, name) {
+        if (view === null) throw new TypeError(`abut: ${name} is an array of objects, not of numbers`);
+        if (data.length % width !== 0) throw new RangeError(`abut: ${name} has ${data.length} numbers, no multiple of ${width}`);
+        const at = this.take(data.length * BYTES[view]);
+        this[view].set(data, at / BYTES[view]);
+        this.rows = data.length / width;
+        return at;
+    }
+
+    /** Arrays of C as typed arrays and as arrays of objects. */
+    copy_f32(at, count) {
+        return this.f32.slice(at >> 2, (at >> 2) + count);
+    }
+    copy_f64(at, count) {
+        return this.f64.slice(at >> 3, (at >> 3) + count);
+    }
+    copy_u32(at, count) {
+        return this.u32.slice(at >> 2, (at >> 2) + count);
+    }
+    copy_u8(at, count) {
+        return this.u8.slice(at, at + count);
+    }
+    list(at, count, size, read) {
+        const result = new Array(count);
+        for (let i = 0; i < count; ++i) result[i] = read(at + i * size);
+        return result;
     }
 }

@@ -33,9 +33,9 @@ function wasi_imports(state) {
     };
 }
 
-/** The exports of the module: of bytes, a compiled module or a response, else of the file beside the package. */
+/** The exports of the module: of a URL, a response, bytes or a compiled module. */
 export async function instantiate(source) {
-    let wasm = source ?? new URL('../abut.wasm', import.meta.url);
+    let wasm = source;
     if (typeof wasm === 'string' || wasm instanceof URL) {
         const url = wasm instanceof URL ? wasm : new URL(wasm, import.meta.url);
         if (url.protocol === 'file:') wasm = await (await import('node:fs/promises')).readFile(url);
@@ -58,6 +58,7 @@ export async function instantiate(source) {
 export function function_pointer(exports, callback, parameters) {
     // A module of one import, which it exports: (type) (import "e" "f") (export "f").
     const i32 = 0x7f;
+    // prettier-ignore
     const bytes = [0, 0x61, 0x73, 0x6d, 1, 0, 0, 0,
         1, 5 + parameters, 1, 0x60, parameters, ...Array(parameters).fill(i32), 1, i32,
         2, 7, 1, 1, 0x65, 1, 0x66, 0, 0,
