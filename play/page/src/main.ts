@@ -165,6 +165,7 @@ function start(abut: Abut): void {
         );
         current = shown;
         if (label) focusControl(label);
+        find("status").textContent = "Working ...";
         void shown.ready().then(() => {
             if (current === shown) find("status").hidden = true;
         }, report);

@@ -159,8 +159,9 @@ export function startMesh({ abut, state, panel, panes, changed, restart }: Conte
 
     open();
     return {
+        ready: decompose(),
         draw,
-        answers: () => ({ ...answer?.report, parts: answer?.parts.length, deepest: answer && deepestOf(answer), status }),
+        answers: () => ({ ...answer?.report, parts: answer?.parts.length, deepest: answer && deepestOf(answer) }),
         code: () => {
             const { max_parts, max_vertices } = state;
             const concavity = readable(state.concavity);
