@@ -152,6 +152,27 @@ async function useControls(page) {
     }
 }
 
+/** Files that can't be read: each gets a sentence, and the answers stay. */
+async function offerBadFiles(page) {
+    const input = page.locator("#panel input[type=file]").first();
+    if ((await input.count()) === 0) return;
+    const before = await answers(page);
+    // Says that it has 4,000 bytes.
+    const cut = Buffer.alloc(40);
+    cut.write("glTF");
+    cut.writeUInt32LE(2, 4);
+    cut.writeUInt32LE(4000, 8);
+    const files = { "picture.png": Buffer.from("89504e470d0a1a0a", "hex"), "empty.glb": Buffer.alloc(0), "cut.glb": cut };
+    for (const [name, buffer] of Object.entries(files)) {
+        await input.setInputFiles({ name, mimeType: "application/octet-stream", buffer });
+        const note = page.locator("#panel .note.failed", { hasText: name });
+        await note.waitFor({ timeout: 30000 });
+        console.log(`  ${await note.textContent()}`);
+    }
+    await settle(page);
+    assert.equal(await answers(page), before, "a bad file changed the answers");
+}
+
 /** The link holds the whole state: opened anew it has the same answers. */
 async function openLinkAgain(page) {
     await page.waitForTimeout(500);
@@ -192,6 +213,7 @@ for (const id of only.length > 0 ? only : ids) {
         await dragByMouse(page);
         await pressKeys(page);
         await openLinkAgain(page);
+        await offerBadFiles(page);
         await page.screenshot({ path: join(pictures, `${id}-desk-light.png`) });
         await tabThrough(page);
         await useControls(page);
