@@ -2,6 +2,7 @@
 
 import type { Context, Exhibit, Running } from "../exhibit";
 import { floats } from "../library";
+import { spaceToggle } from "../panel/space_toggle";
 import { Questions, type AnyShape, type Closest, type Feature } from "../questions";
 import { cppShape, drawShape, shapeChoices, shapeControls, shapeHandle, shapeOf, type ShapeState } from "../shapes/catalogue";
 import { cppTest, cppVec, expectFloat, expectVec, javascriptText } from "../shapes/source_text";
@@ -37,18 +38,12 @@ const kindNames = ["a round place", "vertex", "edge", "face"] as const;
 /** More vertices than this have no numbers. */
 const maxLabels = 24;
 
-function start({ abut, state, panel, panes, changed, restart }: Context<State>): Running {
+function start(context: Context<State>): Running {
+    const { abut, state, panel, panes, changed } = context;
     const [pane] = panes as [(typeof panes)[0]];
     const [a, point] = state.space ? [state.a3, state.point3] : [state.a2, state.point2];
     const dimension = state.space ? 3 : 2;
-    panel.toggle(
-        "In space",
-        () => state.space,
-        (value) => {
-            state.space = value;
-            restart();
-        },
-    );
+    spaceToggle(context);
     shapeControls(
         panel,
         "shape",

@@ -1,6 +1,7 @@
 // Two shapes: how far apart or how deep, and the same in the Minkowski difference.
 
 import type { Context, Exhibit, Running } from "../exhibit";
+import { spaceToggle } from "../panel/space_toggle";
 import { Questions, type AnyShape, type Certificate, type Closest, type Contact, type Polytope } from "../questions";
 import { cppShape, drawShape, shapeChoices, shapeControls, shapeHandle, shapeOf, type ShapeState } from "../shapes/catalogue";
 import { Difference } from "../shapes/difference";
@@ -51,18 +52,12 @@ export const twoShapes: Exhibit<State> = {
 /** How far the polytopes of curved shapes may be off. */
 const tolerance = 0.01;
 
-function start({ abut, state, panel, panes, changed, restart }: Context<State>): Running {
+function start(context: Context<State>): Running {
+    const { abut, state, panel, panes, changed } = context;
     const [world, differencePane] = panes as [(typeof panes)[0], (typeof panes)[0]];
     const [a, b] = state.space ? [state.a3, state.b3] : [state.a2, state.b2];
     const dimension = state.space ? 3 : 2;
-    panel.toggle(
-        "In space",
-        () => state.space,
-        (value) => {
-            state.space = value;
-            restart();
-        },
-    );
+    spaceToggle(context);
     shapeControls(panel, "A", a, shapeChoices(dimension));
     shapeControls(panel, "B", b, shapeChoices(dimension));
     panel.toggle(

@@ -1,24 +1,11 @@
 // Decomposition: a mesh or an outline as convex parts.
 
 import type { Exhibit } from "../../exhibit";
-import { ringChoices, type Rings } from "../../shapes/rings";
+import { spaceToggle } from "../../panel/space_toggle";
+import { ringChoices } from "../../shapes/rings";
 import { startMesh } from "./mesh";
 import { startOutline } from "./outline";
-
-export interface State {
-    space: boolean;
-    /** The name of a choice; "own" after its points were dragged, and "file" for a mesh that was read. */
-    outline: string;
-    mesh: string;
-    rings: Rings;
-    /** The concavity of outlines is a length, that of meshes a share of half the longest side. */
-    notch: number;
-    concavity: number;
-    conforming: boolean;
-    max_parts: number;
-    max_vertices: number;
-    apart: number;
-}
+import type { State } from "./state";
 
 export const decomposition: Exhibit<State> = {
     meaning:
@@ -46,15 +33,7 @@ export const decomposition: Exhibit<State> = {
                   { title: "The parts", dimension: 2, reach: 4 },
               ],
     start(context) {
-        const { state, panel, restart } = context;
-        panel.toggle(
-            "In space",
-            () => state.space,
-            (value) => {
-                state.space = value;
-                restart();
-            },
-        );
-        return state.space ? startMesh(context) : startOutline(context);
+        spaceToggle(context);
+        return context.state.space ? startMesh(context) : startOutline(context);
     },
 };

@@ -9,7 +9,7 @@ import { meshDataOf, sceneMesh, sceneMeshes } from "../../shapes/scene_mesh";
 import { Palette } from "../../stage/drawing";
 import { asPane3 } from "../../stage/pane3";
 import { SolidMesh } from "../../stage/solid_mesh";
-import type { State } from "./decomposition";
+import type { State } from "./state";
 import { LatestTask } from "./latest_task";
 import { apart, partColors } from "./parts";
 import { saveParts } from "./save_parts";

@@ -6,7 +6,7 @@ import { addPoint, cppRings, drawRings, ringChoices, ringHandles } from "../../s
 import { cppTest, javascriptText } from "../../shapes/source_text";
 import type { Drawing } from "../../stage/drawing";
 import { apart, partColors } from "./parts";
-import type { State } from "./decomposition";
+import type { State } from "./state";
 
 interface Decomposition {
     readonly report: {

@@ -1,29 +1,11 @@
 // Fields: the signed distance to a surface, sampled once and known everywhere.
 
 import type { Exhibit } from "../../exhibit";
-import { ringChoices, type Rings } from "../../shapes/rings";
-import { startOutline } from "./outline";
+import { spaceToggle } from "../../panel/space_toggle";
+import { ringChoices } from "../../shapes/rings";
 import { startMesh } from "./mesh";
-
-export interface State {
-    space: boolean;
-    rings: Rings;
-    mesh: string;
-    /** The side of a cell, in the plane and in space. */
-    cell2: number;
-    cell3: number;
-    gradients: boolean;
-    probe2: number[];
-    probe3: number[];
-    lamp2: number[];
-    lamp3: number[];
-    softness: number;
-    axis: string;
-    /** Where the slice lies, as a share of the field's box. */
-    slice: number;
-    particles: number;
-    playing: boolean;
-}
+import { startOutline } from "./outline";
+import type { State } from "./state";
 
 export const fields: Exhibit<State> = {
     meaning:
@@ -56,15 +38,7 @@ export const fields: Exhibit<State> = {
                   { title: "Soft shadow", dimension: 2, reach: 3 },
               ],
     start(context) {
-        const { state, panel, restart } = context;
-        panel.toggle(
-            "In space",
-            () => state.space,
-            (value) => {
-                state.space = value;
-                restart();
-            },
-        );
-        return state.space ? startMesh(context) : startOutline(context);
+        spaceToggle(context);
+        return context.state.space ? startMesh(context) : startOutline(context);
     },
 };

@@ -9,7 +9,7 @@ import { Palette } from "../../stage/drawing";
 import { asPane3 } from "../../stage/pane3";
 import { SolidMesh } from "../../stage/solid_mesh";
 import { FieldShader } from "./field_shader";
-import type { State } from "./fields";
+import type { State } from "./state";
 import { Floor } from "./floor";
 import { maxParticles, Particles } from "./particles";
 import { drawSample, lampHandle, probeHandle, showSample, type Sample } from "./probe";

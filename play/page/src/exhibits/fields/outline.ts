@@ -6,7 +6,7 @@ import { cppFloat, cppTest, cppVec, expectFloat, expectVec, javascriptText } fro
 import { Palette, type Drawing } from "../../stage/drawing";
 import { asPane2, type Pane2 } from "../../stage/pane2";
 import { gridOf, Raster, type Grid } from "../../stage/raster";
-import type { State } from "./fields";
+import type { State } from "./state";
 import { drawSample, lampHandle, probeHandle, showSample, type Sample } from "./probe";
 
 const lineSpacing = 0.25;

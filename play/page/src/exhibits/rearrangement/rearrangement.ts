@@ -1,16 +1,16 @@
 // Convex pieces taken apart along a direction, or moved from one arrangement to another.
 
-import type { Context, Exhibit, Running } from "../exhibit";
-import { json } from "../library";
-import { Questions, type AnyShape } from "../questions";
-import { inARow, puzzles, quarterTurn, type Piece, type Pose, type Puzzle } from "../shapes/puzzles";
-import type { ColorName, Drawing } from "../stage/drawing";
-import type { Handle, Pane } from "../stage/pane";
-import { Pane3 } from "../stage/pane3";
-import { orderCode, planCode } from "./rearrangement/code";
-import { drawBlock, drawPiece, pieceHandle } from "./rearrangement/drawing";
-import { boxAround, boxAt, moveAt, posesAt, type Move } from "./rearrangement/moves";
-import { orderTest, overlapTest, planTest } from "./rearrangement/tests";
+import type { Context, Exhibit, Running } from "../../exhibit";
+import { json } from "../../library";
+import { Questions, type AnyShape } from "../../questions";
+import { inARow, puzzles, quarterTurn, type Piece, type Pose, type Puzzle } from "../../shapes/puzzles";
+import type { ColorName, Drawing } from "../../stage/drawing";
+import type { Handle, Pane } from "../../stage/pane";
+import { Pane3 } from "../../stage/pane3";
+import { orderCode, planCode } from "./code";
+import { drawBlock, drawPiece, pieceHandle } from "./drawing";
+import { boxAround, boxAt, moveAt, posesAt, type Move } from "./moves";
+import { orderTest, overlapTest, planTest } from "./tests";
 
 interface State {
     puzzle: string;

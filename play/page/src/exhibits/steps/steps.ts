@@ -1,15 +1,15 @@
 // Step by step: what GJK, EPA, SAT, clipping and a sweep do, from the library's own trace.
 
-import type { Context, Exhibit, Running } from "../exhibit";
-import { readable } from "../panel/panel";
-import { Questions, type AnyShape } from "../questions";
-import { cppShape, drawShape, shapeChoices, shapeControls, shapeHandle, shapeOf, type ShapeState } from "../shapes/catalogue";
-import { Difference } from "../shapes/difference";
-import { cppFloat, cppTest, cppVec, expectFloat, javascriptText } from "../shapes/source_text";
-import type { Drawing } from "../stage/drawing";
-import type { Handle } from "../stage/pane";
-import { questions, traceOf, type Question, type Step } from "../trace";
-import { drawInDifference, drawInWorld, stepText } from "./steps/draw_step";
+import type { Context, Exhibit, Running } from "../../exhibit";
+import { readable } from "../../panel/panel";
+import { Questions, type AnyShape } from "../../questions";
+import { cppShape, drawShape, shapeChoices, shapeControls, shapeHandle, shapeOf, type ShapeState } from "../../shapes/catalogue";
+import { Difference } from "../../shapes/difference";
+import { cppFloat, cppTest, cppVec, expectFloat, javascriptText } from "../../shapes/source_text";
+import type { Drawing } from "../../stage/drawing";
+import type { Handle } from "../../stage/pane";
+import { questions, traceOf, type Question, type Step } from "../../trace";
+import { drawInDifference, drawInWorld, stepText } from "./draw_step";
 
 interface State {
     space: boolean;

@@ -1,12 +1,12 @@
 // Toys: small games on the library. Each is an exhibit of its own; this one has the choice among them.
 
-import type { AnyExhibit, Exhibit } from "../exhibit";
-import { bullet } from "./toys/bullet";
-import { lag } from "./toys/lag";
-import { laser } from "./toys/laser";
-import { pick } from "./toys/pick";
-import { platformer } from "./toys/platformer";
-import { walker } from "./toys/walker";
+import type { AnyExhibit, Exhibit } from "../../exhibit";
+import { bullet } from "./bullet";
+import { lag } from "./lag";
+import { laser } from "./laser";
+import { pick } from "./pick";
+import { platformer } from "./platformer";
+import { walker } from "./walker";
 
 const entries: Readonly<Record<string, { readonly title: string; readonly exhibit: AnyExhibit }>> = {
     laser: { title: "Laser and mirrors", exhibit: laser },

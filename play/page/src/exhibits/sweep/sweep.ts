@@ -1,7 +1,8 @@
 // Sweep: when two moving shapes touch first, as a ray into the Minkowski difference or by advancing in time.
 
-import type { Context, Exhibit, Running } from "../exhibit";
-import { Questions, type AnyShape, type Hit, type Motion } from "../questions";
+import type { Context, Exhibit, Running } from "../../exhibit";
+import { spaceToggle } from "../../panel/space_toggle";
+import { Questions, type AnyShape, type Hit, type Motion } from "../../questions";
 import {
     cppShape,
     drawShape,
@@ -12,14 +13,14 @@ import {
     shapeHandle,
     shapeOf,
     type ShapeState,
-} from "../shapes/catalogue";
-import { Difference } from "../shapes/difference";
-import { cppFloat, cppPose, cppShape as cppPlain, cppTest, cppVec, expectFloat, expectVec, javascriptText } from "../shapes/source_text";
-import type { Drawing } from "../stage/drawing";
-import type { Handle } from "../stage/pane";
-import { drawPlane } from "../stage/plane";
-import { distancesOf, stopsOf, traceOf, type Stop, type SweepStep } from "../trace";
-import { drawTimeChart } from "./sweep/time_chart";
+} from "../../shapes/catalogue";
+import { Difference } from "../../shapes/difference";
+import { cppFloat, cppPose, cppShape as cppPlain, cppTest, cppVec, expectFloat, expectVec, javascriptText } from "../../shapes/source_text";
+import type { Drawing } from "../../stage/drawing";
+import type { Handle } from "../../stage/pane";
+import { drawPlane } from "../../stage/plane";
+import { distancesOf, stopsOf, traceOf, type Stop, type SweepStep } from "../../trace";
+import { drawTimeChart } from "./time_chart";
 
 /** A shape with its motion: `turn` in radians, in space about the z axis. */
 interface Mover {
@@ -82,7 +83,8 @@ const samples = 81;
 /** Of the whole motion, each second. */
 const playSpeed = 0.35;
 
-function start({ abut, state, panel, panes, changed, restart }: Context<State>): Running {
+function start(context: Context<State>): Running {
+    const { abut, state, panel, panes, changed, restart } = context;
     const [world, second] = panes as [(typeof panes)[0], (typeof panes)[0]];
     const [a, b] = state.space ? [state.a3, state.b3] : [state.a2, state.b2];
     const dimension = state.space ? 3 : 2;
@@ -93,14 +95,7 @@ function start({ abut, state, panel, panes, changed, restart }: Context<State>):
     let isPlaying = false;
 
     panel.setMeaning(state.rotates ? meanings.rotating : meanings.straight);
-    panel.toggle(
-        "In space",
-        () => state.space,
-        (value) => {
-            state.space = value;
-            restart();
-        },
-    );
+    spaceToggle(context);
     panel.toggle(
         "With rotation",
         () => state.rotates,

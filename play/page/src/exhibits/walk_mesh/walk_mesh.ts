@@ -1,16 +1,16 @@
 // A walker on a mesh: steps and paths over a surface, and the triangles that they cross, unfolded into the plane.
 
-import type { Context, Exhibit, Running } from "../exhibit";
-import { floats, json } from "../library";
-import { surfaces } from "../shapes/surfaces";
-import type { Drawing } from "../stage/drawing";
-import { Joystick } from "../stage/joystick";
-import type { Handle } from "../stage/pane";
-import type { Pane3 } from "../stage/pane3";
-import { walkCode } from "./walk_mesh/code";
-import { pathTest, stepTest } from "./walk_mesh/tests";
-import { boxOf, drawStrip, holds, type Bounds, type Strip } from "./walk_mesh/strip";
-import { carried, leftOf, scaled, Walker, type Path, type Place, type Walked, type WalkerState } from "./walk_mesh/walker";
+import type { Context, Exhibit, Running } from "../../exhibit";
+import { floats, json } from "../../library";
+import { surfaces } from "../../shapes/surfaces";
+import type { Drawing } from "../../stage/drawing";
+import { Joystick } from "../../stage/joystick";
+import type { Handle } from "../../stage/pane";
+import type { Pane3 } from "../../stage/pane3";
+import { walkCode } from "./code";
+import { pathTest, stepTest } from "./tests";
+import { boxOf, drawStrip, holds, type Bounds, type Strip } from "./strip";
+import { carried, leftOf, scaled, Walker, type Path, type Place, type Walked, type WalkerState } from "./walker";
 
 interface State {
     surface: string;

@@ -1,12 +1,12 @@
 // Ghosts: contacts with the internal edges of a floor, with the filter and without it.
 
-import type { Context, Exhibit, Running } from "../exhibit";
-import { shapeChoices, type ShapeState } from "../shapes/catalogue";
-import type { Pane } from "../stage/pane";
-import { contactCode, physicsCode } from "./ghosts/code";
-import { Crates, maxCrates } from "./ghosts/crates";
-import { floorChoices, floorOf } from "./ghosts/floors";
-import { LaidShape } from "./ghosts/laid";
+import type { Context, Exhibit, Running } from "../../exhibit";
+import { shapeChoices, type ShapeState } from "../../shapes/catalogue";
+import type { Pane } from "../../stage/pane";
+import { contactCode, physicsCode } from "./code";
+import { Crates, maxCrates } from "./crates";
+import { floorChoices, floorOf } from "./floors";
+import { LaidShape } from "./laid";
 
 interface State {
     space: boolean;
