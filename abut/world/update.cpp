@@ -128,8 +128,8 @@ void World<D>::list_neighbours() {
         const auto& [a, b] = near_[i];
         const bool for_a = neighbours.may_have_several(a), for_b = neighbours.may_have_several(b);
         if ((!for_a && !for_b) || !are_neighbours(a, b)) continue;
-        if (for_a) neighbours.add(a, {b, box(b)});
-        if (for_b) neighbours.add(b, {a, box(a)});
+        if (for_a) neighbours.add(a, b, box(b));
+        if (for_b) neighbours.add(b, a, box(a));
     }
 }
 

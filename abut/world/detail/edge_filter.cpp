@@ -40,7 +40,7 @@ void World<D>::PairTests::each_closest_point_beside(std::uint32_t slot, std::uin
     };
     // It decides the order of the visits alone, so it may come from another thread.
     const auto last_cover = neighbours_.last_cover(slot);
-    const std::uint32_t last = last_cover.load(std::memory_order_relaxed), first = last == other ? none : last;
+    const std::uint32_t last = last_cover.load(std::memory_order_relaxed) - 1, first = last == other ? none : last;
     if (first != none && !visit_item(first)) return;
     Aabb<D> near = box_around(point, within);
     if (is_large_) near = world_.positions_.about_origin(near, frame_);
@@ -48,10 +48,9 @@ void World<D>::PairTests::each_closest_point_beside(std::uint32_t slot, std::uin
         const typename Neighbour<D>::Query query(near);
         for (const Neighbour<D>& neighbour : neighbours) {
             if (!query.overlaps(neighbour) || neighbour.slot == other || neighbour.slot == first) continue;
-            if (!visit_item(neighbour.slot)) {
-                last_cover.store(neighbour.slot, std::memory_order_relaxed);
-                return;
-            }
+            if (visit_item(neighbour.slot)) continue;
+            last_cover.store(neighbour.slot + 1, std::memory_order_relaxed);
+            return;
         }
         return;
     }
@@ -104,14 +103,12 @@ bool World<D>::PairTests::may_need_filter(std::uint32_t slot) const {
            neighbours_.center(slot).load(std::memory_order_relaxed) != Neighbourhoods<D>::Center::covered;
 }
 
-/// Finds which of the two items of a contact need the surface of their neighbours: there is one near each of the
-/// deepest points.
+/// Finds which of the two items of a contact without parts need the surface of their neighbours: there is one near each
+/// of the deepest points.
 template <int D>
-void World<D>::PairTests::find_sides_to_filter(detail::UnfilteredContact<D>& unfiltered) {
-    const WorldContact<D>& found = results_.found.contacts[unfiltered.found];
+bool World<D>::PairTests::find_sides_to_filter(const WorldContact<D>& found, UnfilteredContact<D>& unfiltered) {
     const Contact<D>& contact = found.contact;
     const std::uint32_t a = found.a.index - 1, b = found.b.index - 1;
-    set_frame(a);
     const float s =
         static_cast<float>(surface_probe_scale) * std::min(items_[a].local_ball.radius, items_[b].local_ball.radius);
     // All points are within the smaller item, and so near the first one.
@@ -130,17 +127,22 @@ void World<D>::PairTests::find_sides_to_filter(detail::UnfilteredContact<D>& unf
         const std::span neighbours = neighbours_.of(slot);
         for (const ContactPoint<D>& point : contact.points) {
             if (point.depth < min_depth) continue;
-            const Vec<D> on_surface = point.position + to_origin + to_surface * point.depth;
-            const typename Neighbour<D>::Query near({on_surface - reach, on_surface + reach});
+            const Vec<D> on_surface = point.position + to_surface * point.depth;
+            const Vec<D> middle = on_surface + to_origin;
+            const typename Neighbour<D>::Query near({middle - reach, middle + reach});
             bool is_alone = true;
             for (const Neighbour<D>& neighbour : neighbours)
-                is_alone &= !near.overlaps(neighbour) | (neighbour.slot == other);
+                if (near.overlaps(neighbour) && neighbour.slot != other) {
+                    is_alone = false;
+                    break;
+                }
             if (is_alone) return false;
         }
         return !is_center_covered(slot);
     };
     unfiltered.for_a = needs_filter(a, b, contact.normal * -0.5f);
     unfiltered.for_b = needs_filter(b, a, contact.normal * 0.5f);
+    return unfiltered.for_a || unfiltered.for_b;
 }
 
 /// Calls use(neighbours) with what the items in two slots touch beside each other.
@@ -167,20 +169,21 @@ bool World<D>::PairTests::find_contact(const IdPair& pair) {
     const bool is_filtered = world_.filters_edges_ && !(items_[a].fixed && items_[b].fixed);
     if (has_parts && is_filtered) return find_surface_contacts(pair);
     const auto [placed_a, placed_b] = placed_views(pair);
-    Contact<D>& found = results_.found.add(pair, {}).contact;
-    // Balls have no edges to catch on.
-    const bool is_unfiltered = is_filtered && (type_a != ShapeType::ball || type_b != ShapeType::ball) &&
-                               (may_need_filter(a) || may_need_filter(b));
-    DeepestParts<D> own;
+    WorldContact<D>& found = results_.found.add(pair, {});
+    UnfilteredContact<D>& unfiltered = memory_.next_unfiltered();
     if (has_parts)
-        found = abut::contact(placed_a, placed_b);
+        found.contact = abut::contact(placed_a, placed_b);
     else
-        find_deepest_parts(placed_a, placed_b, {}, is_unfiltered ? memory_.next_deepest() : own, found);
-    if (!found) {
+        find_deepest_parts(placed_a, placed_b, {}, unfiltered.deepest, found.contact);
+    if (!found.contact) {
         results_.found.pop_back();
         return false;
     }
-    if (is_unfiltered && memory_.add_unfiltered(results_.found.size() - 1)) filter_contacts();
+    // Balls have no edges to catch on.
+    if (is_filtered && (type_a != ShapeType::ball || type_b != ShapeType::ball) &&
+        (may_need_filter(a) || may_need_filter(b)) && find_sides_to_filter(found, unfiltered) &&
+        memory_.add_unfiltered(results_.found.size() - 1))
+        filter_contacts();
     return true;
 }
 
@@ -212,9 +215,7 @@ bool World<D>::PairTests::find_surface_contacts(const IdPair& pair) {
 template <int D>
 void World<D>::PairTests::filter_contacts() {
     const auto last = std::span(memory_.unfiltered).first(std::exchange(memory_.unfiltered_count, 0));
-    for (auto& unfiltered : last) find_sides_to_filter(unfiltered);
     for (const auto& unfiltered : last) {
-        if (!unfiltered.for_a && !unfiltered.for_b) continue;
         const WorldContact<D>& found = results_.found.contacts[unfiltered.found];
         const std::uint32_t a = found.a.index - 1, b = found.b.index - 1;
         set_frame(a);

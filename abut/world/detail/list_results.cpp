@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <span>
+#include <utility>
 
 #include <hwy/cache_control.h>
 
@@ -71,12 +72,13 @@ template <int D>
 void World<D>::link_contacts() {
     std::vector<std::uint32_t>& last = memory_->last_found;
     last.assign(items_.size(), none);
-    memory_->found_before.clear();
-    for (const WorldContact<D>& found : results_.found.contacts)
-        for (const Id& id : {found.a, found.b}) {
-            memory_->found_before.push_back(last[id.index - 1]);
-            last[id.index - 1] = static_cast<std::uint32_t>(memory_->found_before.size() - 1);
-        }
+    std::vector<std::uint32_t>& before = memory_->found_before;
+    const std::vector<WorldContact<D>>& contacts = results_.found.contacts;
+    before.resize(std::max(before.size(), 2 * contacts.size()));
+    for (std::uint32_t i = 0; i < contacts.size(); ++i) {
+        before[2 * i] = std::exchange(last[contacts[i].a.index - 1], 2 * i);
+        before[2 * i + 1] = std::exchange(last[contacts[i].b.index - 1], 2 * i + 1);
+    }
 }
 
 /// Whether a contact is reported, by ids in their order. Contacts with surface normals are; a ghost that one of these
@@ -121,7 +123,7 @@ void World<D>::list_results() {
         else
             touching_.push_back({id_of(slots.a), id_of(slots.b)});
         for (std::size_t k = begin; k < end; ++k) {
-            if (are_all_reported || is_reported(k))
+            if (found.states[k].reported || is_reported(k))
                 contacts_.push_back(found.contacts[k]);
             else if (const std::uint32_t area = found.states[k].own_area; area != FoundState::no_own_area)
                 contacts_.push_back(found.own_areas[area]);

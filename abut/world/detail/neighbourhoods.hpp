@@ -9,108 +9,110 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <cstring>
+#include <limits>
 #include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 namespace abut::detail {
 
-/// An item near another one. Its AABB is stored so that D - 1 comparisons of four floats test for overlap.
+/// An item near another one.
 template <int D>
-class Neighbour {
-public:
-    Neighbour() = default;
-    Neighbour(std::uint32_t item, const Aabb<D>& box) : slot(item) {
-        for (std::size_t i = 0; i < sides_.size(); ++i) sides_[i] = side(box.min, box.max, i);
-    }
+struct Neighbour {
+    Aabb<D> box;
+    std::uint32_t slot;
 
-    /// A box, for the tests.
+    /// A box, for the tests: of each of the two boxes, no minimum exceeds a maximum of the other.
     class Query {
     public:
         explicit Query(const Aabb<D>& box) {
-            const auto at = [&](std::size_t i) { return side(box.max, box.min, i); };
-            for (std::size_t i = 0; i < rows_.size(); ++i)
-                rows_[i] = lanes::Floats4{at(2 * i), at(2 * i + 1), at(2 * i + 2), at(2 * i + 3)};
+            constexpr float infinity = std::numeric_limits<float>::infinity();
+            std::array<float, 4> max, min;
+            max.fill(infinity);
+            min.fill(-infinity);
+            for (int i = 0; i < D; ++i) {
+                max[static_cast<std::size_t>(i)] = box.max[i];
+                min[static_cast<std::size_t>(i + 4 - D)] = box.min[i];
+            }
+            max_ = {max[0], max[1], max[2], max[3]};
+            min_ = {min[0], min[1], min[2], min[3]};
         }
         bool overlaps(const Neighbour& neighbour) const {
-            std::uint32_t overlap = 0xF;
-            for (std::size_t i = 0; i < rows_.size(); ++i)
-                overlap &= lanes::bits(lanes::at(neighbour.sides_.data() + 2 * i) <= rows_[i]);
-            return overlap == 0xF;
+            static_assert(sizeof(Aabb<D>) == 2 * D * sizeof(float));
+            const float* const sides = &neighbour.box.min[0];
+            const std::uint32_t below = lanes::bits(lanes::at(sides) <= max_);
+            const std::uint32_t above = lanes::bits(lanes::at(sides + 2 * D - 4) >= min_);
+            return (below & above) == 0xF;
         }
 
     private:
-        std::array<lanes::Floats4, D - 1> rows_;  // sides 0 to 3, and 2 to 5
+        lanes::Floats4 max_, min_;  // the first and the last four of a box's sides are compared with them
     };
-
-    std::uint32_t slot;
-
-private:
-    /// Boxes overlap if no side of one, a minimum or a negative maximum, exceeds that of the other turned around.
-    static float side(const Vec<D>& first, const Vec<D>& second, std::size_t i) {
-        const int axis = static_cast<int>(i) % D;
-        return i < static_cast<std::size_t>(D) ? first[axis] : -second[axis];
-    }
-
-    std::array<float, 2 * D> sides_;
 };
 
 /// The neighbours of all items that have several, in an update that filters internal edges.
 template <int D>
 class Neighbourhoods {
 public:
-    static constexpr std::uint32_t none = 0xFFFFFFFF;
-
     void begin_update(std::size_t items) {
-        of_slot_.assign(items, {});
-        end_ = 0;
+        static_assert(std::is_trivially_copyable_v<OfSlot>);
+        of_slot_.resize(items);
+        std::memset(static_cast<void*>(of_slot_.data()), 0, items * sizeof(OfSlot));
+        end_ = 1;
     }
     /// Counts an item near this one, which may be a neighbour.
     void count(std::uint32_t slot) { ++of_slot_[slot].end; }
     /// Call this when all are counted.
-    void begin_lists(std::size_t near_pairs) { neighbours_.resize(std::max(neighbours_.size(), 2 * near_pairs)); }
-    bool may_have_several(std::uint32_t slot) const { return of_slot_[slot].begin != none || of_slot_[slot].end > 1; }
+    void begin_lists(std::size_t near_pairs) { neighbours_.resize(std::max(neighbours_.size(), 1 + 2 * near_pairs)); }
+    bool may_have_several(std::uint32_t slot) const { return of_slot_[slot].begin != 0 || of_slot_[slot].end > 1; }
     /// Adds a neighbour of an item that may have several. Lists that begin after one another lie beside each other.
-    void add(std::uint32_t slot, const Neighbour<D>& neighbour) {
+    void add(std::uint32_t slot, std::uint32_t neighbour, const Aabb<D>& box) {
         OfSlot& list = of_slot_[slot];
-        if (list.begin == none) {
+        if (list.begin == 0) {
             list.begin = std::exchange(end_, end_ + list.end);
             list.end = list.begin;
         }
-        neighbours_[list.end++] = neighbour;
+        // Member by member: a neighbour that is made beside the list is read before it is written.
+        Neighbour<D>& added = neighbours_[list.end++];
+        added.box = box;
+        added.slot = neighbour;
     }
     /// The items that pair with this one and are no sensors, if they may be several.
     std::span<const Neighbour<D>> of(std::uint32_t slot) const {
-        const auto& [begin, end, last_cover, center] = of_slot_[slot];
-        if (begin == none) return {};
-        return std::span(neighbours_).subspan(begin, end - begin);
+        const OfSlot& list = of_slot_[slot];
+        if (list.begin == 0) return {};
+        return std::span(neighbours_).subspan(list.begin, list.end - list.begin);
     }
 
-    /// Where `of` reads first, to fetch it from memory early.
+    /// What `of` reads first, and where the list is, to fetch them from memory early.
     const void* data(std::uint32_t slot) const { return &of_slot_[slot]; }
+    const void* list(std::uint32_t slot) const { return neighbours_.data() + of_slot_[slot].begin; }
 
     // What is known of an item. Several threads may find out the same.
 
-    /// The neighbour that ended the last search for the point nearest to a contact, likely the next; none at first.
+    /// The index of the id of the neighbour that ended the last search for the point nearest to a contact, likely the
+    /// next; 0 at first.
     std::atomic_ref<std::uint32_t> last_cover(std::uint32_t slot) { return std::atomic_ref(of_slot_[slot].last_cover); }
     enum class Center : std::uint8_t { unknown, covered, uncovered };
     std::atomic_ref<Center> center(std::uint32_t slot) { return std::atomic_ref(of_slot_[slot].center); }
 
     void reserve(std::size_t items, std::size_t near_pairs) {
         of_slot_.reserve(items);
-        neighbours_.reserve(2 * near_pairs);
+        neighbours_.reserve(1 + 2 * near_pairs);
     }
 
 private:
     struct OfSlot {
-        std::uint32_t begin = none;  ///< in neighbours_
-        std::uint32_t end = 0;       ///< while there is no list, the count of items near
-        std::uint32_t last_cover = none;
-        Center center = Center::unknown;
+        std::uint32_t begin;  ///< in neighbours_; 0 if there is no list
+        std::uint32_t end;    ///< while there is no list, the count of items near
+        std::uint32_t last_cover;
+        Center center;
     };
     std::vector<OfSlot> of_slot_;
-    std::uint32_t end_ = 0;  // of the lists so far
-    std::vector<Neighbour<D>> neighbours_;
+    std::vector<Neighbour<D>> neighbours_;  // from 1 on
+    std::uint32_t end_ = 1;                 // of the lists so far
 };
 
 }  // namespace abut::detail

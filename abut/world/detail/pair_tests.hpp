@@ -33,7 +33,7 @@ private:
     void filter_contacts();
     bool may_need_filter(std::uint32_t slot) const;
     bool needs_filter(std::uint32_t slot);
-    void find_sides_to_filter(detail::UnfilteredContact<D>& unfiltered);
+    bool find_sides_to_filter(const WorldContact<D>& found, detail::UnfilteredContact<D>& unfiltered);
     bool is_center_covered(std::uint32_t slot);
     void each_closest_point_beside(std::uint32_t slot, std::uint32_t other, const detail::DVec<D>& point, double within,
                                    detail::ClosestPointVisitor<D> visit);

@@ -22,6 +22,8 @@ struct UnfilteredContact {
     std::uint32_t found;
     bool for_a, for_b;
     DeepestParts<D> deepest;
+
+    UnfilteredContact() {}  // as for its deepest parts
 };
 
 /// What one thread remembers between tests of pairs.
@@ -43,8 +45,8 @@ struct PairTestMemory {
         if (with_offsets) own_offsets.clear();
         for (auto& of_side : nearest) of_side.clear();
     }
-    /// Where the parts of the next contact go.
-    DeepestParts<D>& next_deepest() { return *std::construct_at(&unfiltered[unfiltered_count].deepest); }
+    /// Where the next contact goes.
+    UnfilteredContact<D>& next_unfiltered() { return *std::construct_at(&unfiltered[unfiltered_count]); }
     /// Adds it, by its index among those found. Returns whether it is time to filter the contacts.
     bool add_unfiltered(std::size_t found) {
         unfiltered[unfiltered_count].found = static_cast<std::uint32_t>(found);
