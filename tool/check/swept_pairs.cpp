@@ -195,7 +195,9 @@ void SweptPairs<D>::add(Swept&& swept) {
 
 template <int D>
 void SweptPairs<D>::find(std::size_t first, ContactFindings<D>& findings) {
-    for (auto& [stage, pairs] : stages_) {
+    for (SweptStage& of_stage : stages_) {
+        const Stage<D>& stage = of_stage.stage;
+        std::vector<Swept>& pairs = of_stage.pairs;
         std::erase_if(pairs, [&](const Swept& swept) { return findings.has(swept.pair); });
         workers_.run(static_cast<std::uint32_t>(pairs.size()), [&](std::uint32_t i) {
             Swept& swept = pairs[i];
