@@ -2,8 +2,9 @@
 
 // Deferred work: it runs when a const call needs its result.
 
+#include <abut/math/detail/mutex.hpp>
+
 #include <atomic>
-#include <cstdint>
 
 namespace abut::detail {
 
@@ -12,36 +13,29 @@ namespace abut::detail {
 class DeferredWork {
 public:
     DeferredWork() = default;
-    DeferredWork(const DeferredWork& other) noexcept : state_(other.state_.load(std::memory_order_relaxed)) {}
+    DeferredWork(const DeferredWork& other) noexcept : is_pending_(other.is_pending_.load(std::memory_order_relaxed)) {}
     DeferredWork& operator=(const DeferredWork& other) noexcept {
-        state_.store(other.state_.load(std::memory_order_relaxed), std::memory_order_relaxed);
+        is_pending_.store(other.is_pending_.load(std::memory_order_relaxed), std::memory_order_relaxed);
         return *this;
     }
 
-    void defer() { state_.store(pending, std::memory_order_relaxed); }
-    void cancel() { state_.store(done, std::memory_order_relaxed); }
+    void defer() { is_pending_.store(true, std::memory_order_relaxed); }
+    void cancel() { is_pending_.store(false, std::memory_order_relaxed); }
 
     template <class Work>
     void run(Work&& work) {
-        std::uint32_t state = state_.load(std::memory_order_acquire);
-        while (state != done) {
-            if (state == pending && state_.compare_exchange_weak(state, running, std::memory_order_acquire)) {
-                work();
-                state_.store(done, std::memory_order_release);
-                state_.notify_all();
-                return;
-            }
-            if (state == running) state_.wait(running, std::memory_order_acquire);
-            state = state_.load(std::memory_order_acquire);
-        }
+        if (!is_pending_.load(std::memory_order_acquire)) return;
+        const Lock lock(mutex_);
+        if (!is_pending_.load(std::memory_order_relaxed)) return;
+        work();
+        is_pending_.store(false, std::memory_order_release);
     }
 
 private:
-    static constexpr std::uint32_t done = 0, pending = 1, running = 2;
-
-    /// Not a byte: RISC-V compares and exchanges bytes by calls into another library, which a program would have to
-    /// link.
-    std::atomic<std::uint32_t> state_ = done;
+    std::atomic<bool> is_pending_ = false;
+    /// std::atomic::wait of libstdc++ 12 loses wake-ups where the system has no futex: on Windows a thread waited
+    /// forever.
+    Mutex mutex_;
 };
 
 }  // namespace abut::detail
