@@ -38,7 +38,7 @@ void World<D>::PairTests::each_closest_point_beside(std::uint32_t slot, std::uin
                                  [&](const ClosestPoint<D>& closest) { return within = visit(closest); });
         return within > stop_visiting;
     };
-    // It decides the order of the visits alone, so it may come from another thread.
+    // It decides the order of the visits alone, so it may come from another thread. At first it wraps to none.
     const auto last_cover = neighbours_.last_cover(slot);
     const std::uint32_t last = last_cover.load(std::memory_order_relaxed) - 1, first = last == other ? none : last;
     if (first != none && !visit_item(first)) return;
@@ -130,13 +130,10 @@ bool World<D>::PairTests::find_sides_to_filter(const WorldContact<D>& found, Unf
             const Vec<D> on_surface = point.position + to_surface * point.depth;
             const Vec<D> middle = on_surface + to_origin;
             const typename Neighbour<D>::Query near({middle - reach, middle + reach});
-            bool is_alone = true;
-            for (const Neighbour<D>& neighbour : neighbours)
-                if (near.overlaps(neighbour) && neighbour.slot != other) {
-                    is_alone = false;
-                    break;
-                }
-            if (is_alone) return false;
+            if (std::none_of(neighbours.begin(), neighbours.end(), [&](const Neighbour<D>& neighbour) {
+                    return near.overlaps(neighbour) && neighbour.slot != other;
+                }))
+                return false;
         }
         return !is_center_covered(slot);
     };

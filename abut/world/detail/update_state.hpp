@@ -23,7 +23,8 @@ struct UnfilteredContact {
     bool for_a, for_b;
     DeepestParts<D> deepest;
 
-    UnfilteredContact() {}  // as for its deepest parts
+    /// Written out, as that of DeepestParts: clearing all of it first is slow.
+    UnfilteredContact() {}
 };
 
 /// What one thread remembers between tests of pairs.
