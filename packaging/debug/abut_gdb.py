@@ -167,8 +167,10 @@ WITH_CHILDREN = [
 
 
 def find_printer(value):
-    name = value.type.strip_typedefs().unqualified().name
-    if name is None:
+    kind = value.type.strip_typedefs().unqualified()
+    name = kind.name
+    # Without -fstandalone-debug clang leaves out the members of types that only the library makes.
+    if name is None or not name.startswith(("abut::", "glm::")) or not kind.fields():
         return None
     for pattern, text in ONE_LINE:
         if re.fullmatch(pattern, name):

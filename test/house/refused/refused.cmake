@@ -1,11 +1,14 @@
 # Compiles refused.cpp, of which each line that ends in a comment is a call that must not compile: the compiler says so in
-# one error of fewer than ten lines, which holds the comment's word.
+# one error of fewer than ten lines, which holds the comment's word. clang, which gives each of up to three functions of the
+# name three lines, may write twelve.
 #   cmake -D compiler= -D source= -D include= -P refused.cmake
 execute_process(COMMAND ${compiler} -std=c++20 -fsyntax-only -ferror-limit=0 -I ${include} ${source}
     OUTPUT_QUIET ERROR_VARIABLE clang_says RESULT_VARIABLE result)
+set(limit 12)
 if(clang_says MATCHES "unrecognized command.line option")
     execute_process(COMMAND ${compiler} -std=c++20 -fsyntax-only -I ${include} ${source}
         OUTPUT_QUIET ERROR_VARIABLE clang_says RESULT_VARIABLE result)
+    set(limit 9)
 endif()
 # Semicolons would end an item of a list.
 string(REPLACE ";" "," said "${clang_says}")
@@ -41,7 +44,7 @@ foreach(call IN LISTS calls)
     set(word ${CMAKE_MATCH_1})
     if(NOT errors_${number} EQUAL 1)
         message(SEND_ERROR "${number}: ${errors_${number}} errors where there must be one: ${call}\n${text_${number}}")
-    elseif(NOT lines_${number} LESS 10)
+    elseif(lines_${number} GREATER ${limit})
         message(SEND_ERROR "${number}: ${lines_${number}} lines: ${call}\n${text_${number}}")
     elseif(NOT text_${number} MATCHES "${word}")
         message(SEND_ERROR "${number}: without the word ${word}: ${call}\n${text_${number}}")
