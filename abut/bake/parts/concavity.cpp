@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
+#include <utility>
 
 namespace abut::detail {
 namespace {
@@ -122,47 +124,90 @@ private:
     std::vector<std::vector<std::array<DVec<3>, 2>>> outlines_;
 };
 
-/// The squared distance from the hull; 0 inside.
-double distance_squared(const HullSurface& hull, const DVec<3>& p) {
-    const bool inside = !hull.planes.empty() &&
-                        std::all_of(hull.planes.begin(), hull.planes.end(), [&](const ApproximateHull::Plane& plane) {
-                            return dot(plane.normal, p) <= plane.offset;
-                        });
-    double nearest = inside ? 0 : std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < hull.triangles.size() && nearest > 0; ++i)
-        nearest = nearest_squared(nearest, bounded(hull.triangles[i]), p);
-    return nearest;
+bool contains(const HullSurface& hull, const DVec<3>& p) {
+    return !hull.planes.empty() &&
+           std::all_of(hull.planes.begin(), hull.planes.end(),
+                       [&](const ApproximateHull::Plane& plane) { return dot(plane.normal, p) <= plane.offset; });
 }
 
-/// The largest distance of a point of the triangles. The samples come first. The distance is Lipschitz with constant 1,
-/// so a triangle's center and radius bound the distance of all its points. If the bound exceeds the threshold, the
-/// triangle is bisected.
-template <class Distance>
-double farthest(std::span<const Corners> triangles, const DistanceThreshold& threshold, Distance squared) {
+std::array<Corners, 2> bisected(const Corners& corners) {
+    std::size_t longest = 0;
+    const auto side = [&](std::size_t i) { return length_squared(corners[(i + 1) % 3] - corners[i]); };
+    for (std::size_t i = 1; i < 3; ++i)
+        if (side(i) > side(longest)) longest = i;
+    const std::size_t next = (longest + 1) % 3;
+    const DVec<3> middle = (corners[longest] + corners[next]) * 0.5;
+    std::array<Corners, 2> result{corners, corners};
+    result[0][next] = result[1][longest] = middle;
+    return result;
+}
+
+/// The largest distance of a point of `surface` from the triangles of a target and from what `other` returns the
+/// squared distance of. The samples come first. The distance is Lipschitz with constant 1, so a triangle's center and
+/// radius bound the distance of all its points. The distance from one triangle of the target is convex, and so largest
+/// at a corner. If both bounds exceed the threshold, the triangle is bisected. Its halves look only at the triangles of
+/// the target that may be the nearest of one of their points.
+template <class Other>
+double farthest(std::span<const Corners> surface, std::span<const BoundedTriangle> target,
+                const DistanceThreshold& threshold, const Other& other) {
     double farthest_found = 0;
-    const auto distance = [&](const DVec<3>& p) {
-        const double found = squared(p);
-        return std::isfinite(found) ? square_root(found) : 0;
+    const auto add = [&](double squared) {
+        const double distance = std::isfinite(squared) ? square_root(squared) : 0;
+        farthest_found = std::max(farthest_found, distance);
+        return distance;
     };
-    for (const DVec<3>& p : samples_of(triangles)) farthest_found = std::max(farthest_found, distance(p));
-    std::vector<Corners> stack(triangles.begin(), triangles.end());
-    while (!stack.empty() && farthest_found <= threshold.limit) {
-        const Corners corners = stack.back();
-        stack.pop_back();
-        const BoundedTriangle triangle = bounded(corners);
-        const double here = distance(triangle.center);
-        farthest_found = std::max(farthest_found, here);
-        if (here + triangle.radius <= threshold.limit + threshold.precision) continue;
-        std::size_t longest = 0;
-        const auto side = [&](std::size_t i) { return length_squared(corners[(i + 1) % 3] - corners[i]); };
-        for (std::size_t i = 1; i < 3; ++i)
-            if (side(i) > side(longest)) longest = i;
-        const std::size_t next = (longest + 1) % 3;
-        const DVec<3> middle = (corners[longest] + corners[next]) * 0.5;
-        Corners first = corners, second = corners;
-        first[next] = second[longest] = middle;
-        stack.push_back(first);
-        stack.push_back(second);
+    for (const DVec<3>& p : samples_of(surface)) {
+        double nearest = other(p);
+        for (std::size_t k = 0; k < target.size() && nearest > 0; ++k) nearest = nearest_squared(nearest, target[k], p);
+        add(nearest);
+    }
+
+    const double allowed = threshold.limit + threshold.precision;
+    const auto is_near = [&](const BoundedTriangle& triangle, const Corners& part) {
+        return std::all_of(part.begin(), part.end(), [&](const DVec<3>& p) {
+            return nearest_squared(allowed * allowed, triangle, p) < allowed * allowed;
+        });
+    };
+    struct Part {
+        Corners corners;
+        std::size_t end;  ///< of its indices in `near`, which begin where those of the part before end
+    };
+    std::vector<Part> stack;
+    std::vector<std::uint32_t> near;
+    for (std::size_t i = surface.size(); i-- > 0 && farthest_found <= threshold.limit;) {
+        near.resize(target.size());
+        std::iota(near.begin(), near.end(), 0u);
+        stack.assign(1, {surface[i], near.size()});
+        while (!stack.empty() && farthest_found <= threshold.limit) {
+            const Corners corners = stack.back().corners;
+            stack.pop_back();
+            const std::size_t begin = stack.empty() ? 0 : stack.back().end;
+            const BoundedTriangle part = bounded(corners);
+            double squared = other(part.center);
+            const BoundedTriangle* nearest = nullptr;
+            for (std::size_t k = begin; k < near.size() && squared > 0; ++k) {
+                const BoundedTriangle& t = target[near[k]];
+                const double before = std::exchange(squared, nearest_squared(squared, t, part.center));
+                if (squared < before) nearest = &t;
+            }
+            const double here = add(squared);
+            if (here + part.radius > allowed && !(nearest != nullptr && is_near(*nearest, corners))) {
+                constexpr double rounding = 1.00001;
+                std::size_t end = begin;
+                const double reach = (here + 2 * part.radius) * rounding, square = reach * reach;
+                for (std::size_t k = begin; k < near.size(); ++k)
+                    if (nearest_squared(square, target[near[k]], part.center) < square) near[end++] = near[k];
+                near.resize(2 * end - begin);
+                std::copy(near.begin() + static_cast<std::ptrdiff_t>(begin),
+                          near.begin() + static_cast<std::ptrdiff_t>(end),
+                          near.begin() + static_cast<std::ptrdiff_t>(end));
+                const auto [first, second] = bisected(corners);
+                stack.push_back({first, end});
+                stack.push_back({second, near.size()});
+            } else {
+                near.resize(begin);
+            }
+        }
     }
     return farthest_found;
 }
@@ -188,22 +233,22 @@ HullSurface approximate_hull_surface(std::span<const DVec<3>> points, Approximat
 }
 
 double farthest_distance(const Piece& piece, const HullSurface& surface, const DistanceThreshold& threshold) {
-    const Caps caps(piece);
     std::vector<BoundedTriangle> triangles;
     triangles.reserve(piece.triangles.size());
     for (const glm::uvec3& t : piece.triangles)
         triangles.push_back(bounded({piece.points[t.x], piece.points[t.y], piece.points[t.z]}));
-    return farthest(surface.triangles, threshold, [&](const DVec<3>& p) {
-        double nearest = caps.distance_squared(p);
-        for (const BoundedTriangle& t : triangles) nearest = nearest_squared(nearest, t, p);
-        return nearest;
-    });
+    const Caps caps(piece);
+    return farthest(surface.triangles, triangles, threshold,
+                    [&](const DVec<3>& p) { return caps.distance_squared(p); });
 }
 
 double farthest_distance(const HullSurface& first, const HullSurface& second, const HullSurface& surface,
                          const DistanceThreshold& threshold) {
-    return farthest(surface.triangles, threshold, [&](const DVec<3>& p) {
-        return std::min(distance_squared(first, p), distance_squared(second, p));
+    std::vector<BoundedTriangle> triangles;
+    for (const HullSurface* hull : {&first, &second})
+        for (const Corners& corners : hull->triangles) triangles.push_back(bounded(corners));
+    return farthest(surface.triangles, triangles, threshold, [&](const DVec<3>& p) {
+        return contains(first, p) || contains(second, p) ? 0 : std::numeric_limits<double>::infinity();
     });
 }
 
