@@ -27,8 +27,8 @@ constexpr int ok = 0, sides_disagree = 1, wrong_usage = 2;
 
 constexpr const char* usage =
     "abut_bench [GROUP] [--json]\n"
-    "  GROUP    narrow, broad, motion, levels, convex, field or walk, or the beginning of a row's name, such "
-    "as broad/moving; otherwise all\n"
+    "  GROUP    narrow, broad, motion, levels, convex, field or walk, the beginning of rows' names, such as "
+    "broad/moving, or the whole name of one; otherwise all\n"
     "abut_bench --plots FOLDER\n"
     "           measures what the documentation's pictures of broad phases show, and writes them there\n"
     "Exit status: 0 = fine, 1 = abut and a peer disagree, 2 = wrong usage, or a file can't be written\n";
@@ -121,7 +121,9 @@ int main(int argc, char** argv) {
     }
 
     std::vector<Bench> benches = all_benches();
-    std::erase_if(benches, [&](const Bench& bench) { return !bench.name.starts_with(group); });
+    const bool is_one = std::ranges::any_of(benches, [&](const Bench& bench) { return bench.name == group; });
+    std::erase_if(benches,
+                  [&](const Bench& bench) { return is_one ? bench.name != group : !bench.name.starts_with(group); });
     if (benches.empty()) {
         std::cerr << "abut_bench: there is no group " << group << '\n' << usage;
         return wrong_usage;
