@@ -115,16 +115,19 @@ bool World<D>::are_neighbours(std::uint32_t slot, std::uint32_t other) const {
 template <int D>
 void World<D>::list_neighbours() {
     constexpr std::size_t ahead = 8;
+    const bool are_cached = items_.size() <= detail::max_cached_items;
     detail::Neighbourhoods<D>& neighbours = memory_->neighbours;
     neighbours.begin_lists(near_.size());
     for (std::size_t i = 0; i < near_.size(); ++i) {
-        const detail::SlotPair& later = near_[std::min(i + ahead, near_.size() - 1)];
-        for (const std::uint32_t slot : {later.a, later.b}) {
-            hwy::Prefetch(&items_[slot].place);
-            hwy::Prefetch(&items_[slot].type);
+        if (!are_cached) {
+            const detail::SlotPair& later = near_[std::min(i + ahead, near_.size() - 1)];
+            for (const std::uint32_t slot : {later.a, later.b}) {
+                hwy::Prefetch(&items_[slot].place);
+                hwy::Prefetch(&items_[slot].type);
+            }
+            const detail::SlotPair& next = near_[std::min(i + ahead / 2, near_.size() - 1)];
+            for (const std::uint32_t slot : {next.a, next.b}) hwy::Prefetch(&box(slot));
         }
-        const detail::SlotPair& next = near_[std::min(i + ahead / 2, near_.size() - 1)];
-        for (const std::uint32_t slot : {next.a, next.b}) hwy::Prefetch(&box(slot));
         const auto& [a, b] = near_[i];
         const bool for_a = neighbours.may_have_several(a), for_b = neighbours.may_have_several(b);
         if ((!for_a && !for_b) || !are_neighbours(a, b)) continue;

@@ -111,12 +111,15 @@ void World<D>::list_results() {
     touching_.clear();
     contacts_.clear();
     const std::span<const TouchingSlots> touches = results_.touching;
+    const bool are_cached = items_.size() <= detail::max_cached_items;
     for (std::size_t i = 0; i < touches.size(); ++i) {
         // The contacts are in memory in the order of the tests.
-        const std::size_t later = touches[std::min(i + ahead, touches.size() - 1)].begin;
-        const char* const next = reinterpret_cast<const char*>(found.contacts.data() + later);
-        for (std::size_t at = 0; at < sizeof(WorldContact<D>); at += cache_line) hwy::Prefetch(next + at);
-        if (!are_all_reported) hwy::Prefetch(found.states.data() + later);
+        if (!are_cached) {
+            const std::size_t later = touches[std::min(i + ahead, touches.size() - 1)].begin;
+            const char* const next = reinterpret_cast<const char*>(found.contacts.data() + later);
+            for (std::size_t at = 0; at < sizeof(WorldContact<D>); at += cache_line) hwy::Prefetch(next + at);
+            if (!are_all_reported) hwy::Prefetch(found.states.data() + later);
+        }
         const auto& [slots, begin, end] = touches[i];
         if (begin < end)
             touching_.push_back({found.contacts[begin].a, found.contacts[begin].b});

@@ -13,17 +13,20 @@ namespace abut {
 template <int D>
 void World<D>::PairTests::run(std::size_t begin, std::size_t end) {
     constexpr std::size_t ahead = 8, cache_line = 64;
+    const bool are_cached = items_.size() <= detail::max_cached_items;
     for (std::size_t i = begin; i < end; ++i) {
-        const detail::SlotPair& later = world_.near_[std::min(i + ahead, end - 1)];
-        for (const std::uint32_t slot : {later.a, later.b}) {
-            hwy::Prefetch(&items_[slot]);
-            hwy::Prefetch(reinterpret_cast<const char*>(&items_[slot]) + cache_line);
-            if (world_.filters_edges_) hwy::Prefetch(neighbours_.data(slot));
-        }
-        const detail::SlotPair& next = world_.near_[std::min(i + ahead / 2, end - 1)];
-        for (const std::uint32_t slot : {next.a, next.b}) {
-            hwy::Prefetch(items_[slot].stored.data());
-            if (world_.filters_edges_) hwy::Prefetch(neighbours_.list(slot));
+        if (!are_cached) {
+            const detail::SlotPair& later = world_.near_[std::min(i + ahead, end - 1)];
+            for (const std::uint32_t slot : {later.a, later.b}) {
+                hwy::Prefetch(&items_[slot]);
+                hwy::Prefetch(reinterpret_cast<const char*>(&items_[slot]) + cache_line);
+                if (world_.filters_edges_) hwy::Prefetch(neighbours_.data(slot));
+            }
+            const detail::SlotPair& next = world_.near_[std::min(i + ahead / 2, end - 1)];
+            for (const std::uint32_t slot : {next.a, next.b}) {
+                hwy::Prefetch(items_[slot].stored.data());
+                if (world_.filters_edges_) hwy::Prefetch(neighbours_.list(slot));
+            }
         }
         test_pair(world_.near_[i]);
     }

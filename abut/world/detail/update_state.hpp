@@ -15,6 +15,10 @@
 
 namespace abut::detail {
 
+/// The items of a larger world leave the second cache of common processors, and are fetched ahead of their use. In a
+/// smaller one this would take a twentieth of an update.
+constexpr std::size_t max_cached_items = 4096;
+
 /// A contact of items without parts that isn't filtered yet, by its index among those found, and for which of its items
 /// it needs that.
 template <int D>
