@@ -1,22 +1,19 @@
 // Decomposes any rings: an exact oracle confirms the parts, or the result is a Problem with a message.
 
 #include "../oracle/bake/outline_parts.hpp"
+#include "bytes.hpp"
 #include <abut/bake/decompose_outline.hpp>
 
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <span>
 #include <vector>
 
 namespace {
 
 using namespace abut;
-
-void require(bool condition) {
-    if (!condition) std::abort();
-}
+using fuzz::require;
 
 /// Bytes as numbers: cells of a small grid, where many points are collinear, or any floats.
 class Numbers {

@@ -3,6 +3,7 @@
 
 #include "../oracle/finite_answers.hpp"
 #include "../oracle/random.hpp"
+#include "bytes.hpp"
 #include "with_checksum.hpp"
 #include <abut/field/check.hpp>
 #include <abut/field/file.hpp>
@@ -14,7 +15,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
 #include <span>
 #include <vector>
@@ -23,10 +23,7 @@ namespace {
 
 using namespace abut;
 using namespace abut::detail;
-
-void require(bool condition) {
-    if (!condition) std::abort();
-}
+using fuzz::require;
 
 /// A point in and around a box, sometimes anywhere in the range of floats.
 template <int D>

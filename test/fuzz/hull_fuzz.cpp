@@ -1,6 +1,7 @@
 // Hulls of any points, in 2D and 3D, with any limit: they contain all points to within the tolerance, and all numbers
 // are finite.
 
+#include "bytes.hpp"
 #include <abut/convex/hull/hull.hpp>
 #include <abut/convex/hull/hull_input.hpp>
 #include <abut/convex/hull/limited/limited_hull.hpp>
@@ -12,7 +13,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
 #include <span>
 #include <vector>
@@ -21,12 +21,9 @@ namespace {
 
 using namespace abut;
 using namespace abut::detail;
+using fuzz::require;
 
 constexpr std::size_t max_points = 200;
-
-void require(bool condition) {
-    if (!condition) std::abort();
-}
 
 /// The first byte selects the kind of points, the second the limit; the others are coordinates: raw floats, or steps of
 /// a coarse lattice, where many points are coplanar.

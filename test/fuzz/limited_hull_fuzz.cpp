@@ -1,6 +1,7 @@
 // Hulls with a vertex limit of any points, in 2D and 3D, stretched, flat, far away: they contain every point exactly,
 // respect the limit, and are no larger than the bounding box.
 
+#include "bytes.hpp"
 #include <abut/convex/hull/hull.hpp>
 #include <abut/convex/hull/hull_input.hpp>
 #include <abut/convex/hull/limited/limited_hull.hpp>
@@ -12,7 +13,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
 #include <limits>
 #include <span>
@@ -22,12 +22,9 @@ namespace {
 
 using namespace abut;
 using namespace abut::detail;
+using fuzz::require;
 
 constexpr std::size_t max_points = 60;
-
-void require(bool condition) {
-    if (!condition) std::abort();
-}
 
 /// The first bytes select the generator: the limit; coordinates as raw floats, small integers or ulp steps around a
 /// point; and the power of two that scales each axis.

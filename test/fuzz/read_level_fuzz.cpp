@@ -1,12 +1,12 @@
 // The readers of levels on any bytes: a Level that is safe to query, or a Problem with a message. Files that a map
 // refers to are the map itself, so that the readers of tilesets and templates run too.
 
+#include "bytes.hpp"
 #include <abut/io/read_level.hpp>
 #include <abut/query/closest.hpp>
 
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <set>
 #include <span>
 #include <string>
@@ -16,10 +16,7 @@
 namespace {
 
 using namespace abut;
-
-void require(bool condition) {
-    if (!condition) std::abort();
-}
+using fuzz::require;
 
 // The format is chosen by the text, as in the corpus.
 std::string_view extension_of(std::string_view text) {

@@ -2,13 +2,13 @@
 // Formats read by Assimp run only when the corpus is replayed, not when libFuzzer searches for new inputs: Assimp isn't
 // ours, and its leaks and crashes (the tool runs it in a separate process) would be the only findings.
 
+#include "bytes.hpp"
 #include <abut/io/mesh/scene_bytes.hpp>
 #include <abut/io/read_scene.hpp>
 #include <abut/math/vec.hpp>
 
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -20,10 +20,7 @@ namespace {
 
 using namespace abut;
 using namespace abut::detail;
-
-void require(bool condition) {
-    if (!condition) std::abort();
-}
+using fuzz::require;
 
 void check(const Result<Scene>& scene) {
     // Sent bytes arrive unchanged.

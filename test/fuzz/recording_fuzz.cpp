@@ -1,11 +1,11 @@
 // Replays any bytes: they are refused in one line, or every difference has its entry and its question.
 
 #include "../oracle/seal.hpp"
+#include "bytes.hpp"
 #include <abut/world/replay.hpp>
 
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
 #include <span>
 #include <vector>
@@ -13,10 +13,7 @@
 namespace {
 
 using namespace abut;
-
-void require(bool condition) {
-    if (!condition) std::abort();
-}
+using fuzz::require;
 
 void check(std::span<const std::byte> bytes) {
     const Result<ReplayReport> report = replay(bytes, {.max_differences = 3});

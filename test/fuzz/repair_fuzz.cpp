@@ -1,50 +1,13 @@
 // Mesh repair on any triangles: a surface with a correct report, or a Problem with a message.
 
+#include "bytes.hpp"
 #include <abut/bake/repair.hpp>
 #include <abut/shape/mesh/half_edges.hpp>
 
-#include <cstddef>
-#include <cstdint>
-#include <cstdlib>
-#include <cstring>
 #include <vector>
 
-namespace {
-
 using namespace abut;
-
-void require(bool condition) {
-    if (!condition) std::abort();
-}
-
-/// Numbers until the bytes end; then 0.
-class Bytes {
-public:
-    Bytes(const std::uint8_t* data, std::size_t size) : data_(data), left_(size) {}
-
-    bool empty() const { return left_ == 0; }
-    std::uint8_t byte() {
-        if (left_ == 0) return 0;
-        --left_;
-        return *data_++;
-    }
-    /// Mostly small integers, so that points coincide and are collinear; after 0xff any bits.
-    float coordinate() {
-        const std::uint8_t first = byte();
-        if (first != 0xff) return static_cast<float>(first % 8);
-        std::uint8_t bits[sizeof(float)];
-        for (std::uint8_t& b : bits) b = byte();
-        float result = 0;
-        std::memcpy(&result, bits, sizeof result);
-        return result;
-    }
-
-private:
-    const std::uint8_t* data_;
-    std::size_t left_;
-};
-
-}  // namespace
+using fuzz::Bytes, fuzz::require;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     Bytes bytes(data, size);

@@ -2,12 +2,12 @@
 // answers queries.
 
 #include "../shape/saved_shapes.hpp"
+#include "bytes.hpp"
 #include "with_checksum.hpp"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <span>
 #include <type_traits>
 #include <vector>
@@ -15,10 +15,7 @@
 namespace {
 
 using namespace abut;
-
-void require(bool condition) {
-    if (!condition) std::abort();
-}
+using fuzz::require;
 
 template <class S>
 void check(std::span<const std::byte> bytes) {

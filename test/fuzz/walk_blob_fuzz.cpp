@@ -1,22 +1,19 @@
 // Loads any bytes as a walk mesh: the load refuses them, or the mesh can be walked on and saved again.
 
+#include "bytes.hpp"
 #include "with_checksum.hpp"
 #include <abut/walk/file.hpp>
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <span>
 #include <vector>
 
 namespace {
 
 using namespace abut;
-
-void require(bool condition) {
-    if (!condition) std::abort();
-}
+using fuzz::require;
 
 void require_place(const WalkMesh& mesh, const WalkPoint& place) {
     require(place.triangle < mesh.triangles().size() && mesh.is_walkable(place.triangle));

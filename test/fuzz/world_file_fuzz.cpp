@@ -1,22 +1,19 @@
 // Loads a world from any bytes: the load refuses them, or the world is saved and loaded again as it was, and can be
 // used.
 
+#include "bytes.hpp"
 #include "with_checksum.hpp"
 #include <abut/world/file.hpp>
 
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <span>
 #include <vector>
 
 namespace {
 
 using namespace abut;
-
-void require(bool condition) {
-    if (!condition) std::abort();
-}
+using fuzz::require;
 
 template <int D>
 void check(std::span<const std::byte> bytes) {

@@ -1,6 +1,7 @@
 // Restores a world from any bytes: the world refuses them and stays as it was, or it saves the same bytes again and can
 // be used.
 
+#include "bytes.hpp"
 #include "with_checksum.hpp"
 #include <abut/shape/box.hpp>
 #include <abut/shape/capsule.hpp>
@@ -9,17 +10,13 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <span>
 #include <vector>
 
 namespace {
 
 using namespace abut;
-
-void require(bool condition) {
-    if (!condition) std::abort();
-}
+using fuzz::require;
 
 /// Some items that touch, one that moved since the update, a bullet, and a free slot.
 World3 example() {
