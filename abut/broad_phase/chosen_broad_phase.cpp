@@ -1,6 +1,7 @@
 #include <abut/broad_phase/chosen_broad_phase.hpp>
 #include <abut/broad_phase/concept.hpp>
 #include <abut/broad_phase/detail/parallel.hpp>
+#include <abut/math/assert.hpp>
 #include <abut/math/simd/library_entry.hpp>
 
 #include <array>
@@ -71,6 +72,7 @@ void ChosenBroadPhase<D>::update(std::span<const Aabb<D>> boxes, Executor* execu
     constexpr std::uint32_t updates_per_choice = 64;
     // Rates far below 0.01 queries per box count as equal.
     constexpr double max_ratio = 2, offset = 0.01;
+    ABUT_ASSERT(boxes.size() == size());
     if (boxes.size() != size()) return build(boxes, executor);
     const double now = history_.queries + offset, then = chosen_queries_ + offset;
     const bool rate_changed = now > max_ratio * then || then > max_ratio * now;
