@@ -143,5 +143,21 @@ TEST(SeparationFunction, ReturnsItsRate) {
     EXPECT_GT(smooth, 270);  // the rest changes corners there, or is a user's shape that answers in floats
 }
 
+/// Corners of a flat box in one place were an edge of no length, by whose length an axis was divided.
+TEST(SeparationFunction, HasAnAxisBesideCornersInOnePlace) {
+    const Box3 flat{{0, 0, 0}, {0.5f, 0, 0.5f}}, other{{0, 2, 0}, {0.5f, 0.5f, 0.5f}};
+    RigidPath<3> path = rigid_path(Motion<3>{});
+    path.angular_velocity = {0.3, 0.2, 0.1};
+    const RotatingSet<3> a(convex(flat), path, 0), b(convex(other), path, 0);
+    for (std::uint32_t first = 0; first < 8; ++first)
+        for (std::uint32_t second = 0; second < 8; ++second) {
+            ClosestCorners<3> corners;
+            corners.count = 2;
+            corners.a = {first, second};
+            corners.b = {first, first};
+            EXPECT_TRUE(is_finite<3>(axis_angular_velocity(a, b, DVec<3>(0, 1, 0), corners))) << first << ' ' << second;
+        }
+}
+
 }  // namespace
 }  // namespace abut

@@ -283,9 +283,11 @@ DVec<3> angular_velocity_of_axis(const DVec<3>& n, const DVec<3>& rate, const DV
     return cross(n, rate) + n * (0.5 * dot(n, spin_a + spin_b));
 }
 
-/// The smallest n' that leaves n orthogonal to an edge e: n' . e = (w x n) . e.
+/// The smallest n' that leaves n orthogonal to an edge e: n' . e = (w x n) . e. An edge of a flat box may have no
+/// length.
 DVec<3> rate_orthogonal_to(const DVec<3>& e, const DVec<3>& angular_velocity, const DVec<3>& n) {
-    return e * (dot(cross(angular_velocity, n), e) / dot(e, e));
+    const double square = dot(e, e);
+    return square > 0 ? e * (dot(cross(angular_velocity, n), e) / square) : DVec<3>(0.0);
 }
 
 /// Whether a core in 2D touches along an edge.
