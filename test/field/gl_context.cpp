@@ -35,8 +35,8 @@ struct GlContext::Parts {
             egl<decltype(&eglMakeCurrent)>("eglMakeCurrent")(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
             egl<decltype(&eglDestroyContext)>("eglDestroyContext")(display, context);
         }
-        if (display != EGL_NO_DISPLAY) egl<decltype(&eglTerminate)>("eglTerminate")(display);
-        // The library stays loaded, because Mesa's threads and exit handlers need it.
+        // The display stays, and with it the library and the driver, because Mesa's threads and exit handlers need
+        // them. What an unloaded driver has not freed would be a leak without an owner.
     }
 };
 

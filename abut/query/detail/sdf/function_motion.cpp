@@ -4,6 +4,7 @@
 #include <abut/query/detail/sdf/placed_function.hpp>
 #include <abut/shape/view/view.hpp>
 
+#include <cmath>
 #include <optional>
 
 namespace abut::detail {
@@ -211,7 +212,8 @@ std::optional<TimedDistance<D>> time_of_impact_by_steps(const Part<D>& a, const 
                                     : std::max(gap, 0.25 * tolerance) / motion.speed;
         const int left = function_sweep_max_iterations - step;
         if (2 * left < function_sweep_max_iterations) stride = std::max(stride, (motion.end - now.time) / left);
-        if (!(gap < std::numeric_limits<double>::infinity()) || now.time >= motion.end) return std::nullopt;
+        // A function that breaks its promise may be infinitely deep.
+        if (!std::isfinite(gap) || now.time >= motion.end) return std::nullopt;
         const double time = std::min(now.time + stride, motion.end);
         // At a distance an approximation suffices.
         excess = is_touching ? 0 : far_off * std::max(gap, 0.0);
