@@ -7,7 +7,6 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 namespace {
@@ -15,41 +14,26 @@ namespace {
 using namespace abut;
 using fuzz::require;
 
-/// Bytes as numbers: cells of a small grid, where many points are collinear, or any floats.
-class Numbers {
-public:
-    explicit Numbers(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
-
-    bool any_left() const { return !bytes_.empty(); }
-    std::uint8_t byte() {
-        if (bytes_.empty()) return 0;
-        const std::uint8_t result = bytes_.front();
-        bytes_ = bytes_.subspan(1);
-        return result;
-    }
-    float coordinate(bool on_grid) {
-        if (on_grid) return static_cast<float>(byte() % 16);
-        std::uint32_t bits = 0;
-        for (int i = 0; i < 4; ++i) bits = bits << 8 | byte();
-        return std::bit_cast<float>(bits);
-    }
-
-private:
-    std::span<const std::uint8_t> bytes_;
-};
+/// A cell of a small grid, where many points are collinear, or any float.
+float coordinate(fuzz::Bytes& bytes, bool on_grid) {
+    if (on_grid) return static_cast<float>(bytes.byte() % 16);
+    std::uint32_t bits = 0;
+    for (int i = 0; i < 4; ++i) bits = bits << 8 | bytes.byte();
+    return std::bit_cast<float>(bits);
+}
 
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     if (size > 600) return 0;
-    Numbers numbers({data, size});
-    const std::uint8_t kind = numbers.byte();
+    fuzz::Bytes bytes(data, size);
+    const std::uint8_t kind = bytes.byte();
     const bool on_grid = (kind & 3) != 0;
     std::vector<std::vector<Vec2>> rings(1);
-    while (numbers.any_left()) {
-        if (on_grid && numbers.byte() % 8 == 7) rings.emplace_back();
-        const float x = numbers.coordinate(on_grid);
-        rings.back().emplace_back(x, numbers.coordinate(on_grid));
+    while (!bytes.empty()) {
+        if (on_grid && bytes.byte() % 8 == 7) rings.emplace_back();
+        const float x = coordinate(bytes, on_grid);
+        rings.back().emplace_back(x, coordinate(bytes, on_grid));
     }
     const std::vector<std::vector<Vec2>> holes(rings.begin() + 1, rings.end());
 

@@ -168,47 +168,30 @@ double farthest(std::span<const Corners> surface, std::span<const BoundedTriangl
             return nearest_squared(allowed * allowed, triangle, p) < allowed * allowed;
         });
     };
-    struct Part {
-        Corners corners;
-        std::size_t end;  ///< of its indices in `near`, which begin where those of the part before end
-    };
-    std::vector<Part> stack;
-    std::vector<std::uint32_t> near;
-    for (std::size_t i = surface.size(); i-- > 0 && farthest_found <= threshold.limit;) {
-        near.resize(target.size());
-        std::iota(near.begin(), near.end(), 0u);
-        stack.assign(1, {surface[i], near.size()});
-        while (!stack.empty() && farthest_found <= threshold.limit) {
-            const Corners corners = stack.back().corners;
-            stack.pop_back();
-            const std::size_t begin = stack.empty() ? 0 : stack.back().end;
-            const BoundedTriangle part = bounded(corners);
-            double squared = other(part.center);
-            const BoundedTriangle* nearest = nullptr;
-            for (std::size_t k = begin; k < near.size() && squared > 0; ++k) {
-                const BoundedTriangle& t = target[near[k]];
-                const double before = std::exchange(squared, nearest_squared(squared, t, part.center));
-                if (squared < before) nearest = &t;
-            }
-            const double here = add(squared);
-            if (here + part.radius > allowed && !(nearest != nullptr && is_near(*nearest, corners))) {
-                constexpr double rounding = 1.00001;
-                std::size_t end = begin;
-                const double reach = (here + 2 * part.radius) * rounding, square = reach * reach;
-                for (std::size_t k = begin; k < near.size(); ++k)
-                    if (nearest_squared(square, target[near[k]], part.center) < square) near[end++] = near[k];
-                near.resize(2 * end - begin);
-                std::copy(near.begin() + static_cast<std::ptrdiff_t>(begin),
-                          near.begin() + static_cast<std::ptrdiff_t>(end),
-                          near.begin() + static_cast<std::ptrdiff_t>(end));
-                const auto [first, second] = bisected(corners);
-                stack.push_back({first, end});
-                stack.push_back({second, near.size()});
-            } else {
-                near.resize(begin);
-            }
+    const auto search = [&](const auto& self, const Corners& corners, std::span<const std::uint32_t> near) -> void {
+        if (farthest_found > threshold.limit) return;
+        const BoundedTriangle part = bounded(corners);
+        double squared = other(part.center);
+        const BoundedTriangle* nearest = nullptr;
+        for (std::size_t k = 0; k < near.size() && squared > 0; ++k) {
+            const BoundedTriangle& t = target[near[k]];
+            const double before = std::exchange(squared, nearest_squared(squared, t, part.center));
+            if (squared < before) nearest = &t;
         }
-    }
+        const double here = add(squared);
+        if (here + part.radius <= allowed || (nearest != nullptr && is_near(*nearest, corners))) return;
+        constexpr double rounding = 1.00001;
+        const double reach = (here + 2 * part.radius) * rounding, square = reach * reach;
+        std::vector<std::uint32_t> kept;
+        for (const std::uint32_t k : near)
+            if (nearest_squared(square, target[k], part.center) < square) kept.push_back(k);
+        const auto [first, second] = bisected(corners);
+        self(self, second, kept);
+        self(self, first, kept);
+    };
+    std::vector<std::uint32_t> all(target.size());
+    std::iota(all.begin(), all.end(), 0u);
+    for (std::size_t i = surface.size(); i-- > 0;) search(search, surface[i], all);
     return farthest_found;
 }
 
