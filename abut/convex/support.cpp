@@ -133,10 +133,17 @@ Placement<D> mapped(const Placement<D>& placement, const Affine<D>& map) {
     const double factor_squared = length_squared(map.column[0]);
     const double tolerance = 1e-12 * factor_squared;
     bool similar = true;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(D); ++i) {
-        similar = similar && std::abs(length_squared(map.column[i]) - factor_squared) <= tolerance;
-        for (std::size_t j = 0; j < i; ++j)
-            similar = similar && std::abs(dot(map.column[i], map.column[j])) <= tolerance;
+    DVec<D> least_squared;  // of the factors, by Gershgorin's circles of the columns' products
+    for (int i = 0; i < D; ++i) least_squared[i] = length_squared(map.column[static_cast<std::size_t>(i)]);
+    for (int i = 0; i < D; ++i) {
+        const DVec<D>& column = map.column[static_cast<std::size_t>(i)];
+        similar = similar && std::abs(length_squared(column) - factor_squared) <= tolerance;
+        for (int j = 0; j < i; ++j) {
+            const double product = std::abs(dot(column, map.column[static_cast<std::size_t>(j)]));
+            similar = similar && product <= tolerance;
+            least_squared[i] -= product;
+            least_squared[j] -= product;
+        }
     }
     Placement<D> result = placement;
     result.place = map * placement.place;
@@ -146,12 +153,15 @@ Placement<D> mapped(const Placement<D>& placement, const Affine<D>& map) {
         result.radius *= factor;
         return result;
     }
-    ABUT_ASSERT(placement.radius == 0 || placement.similar);
-    if (placement.radius > 0 && placement.scale > 0) {
+    result.similar = false;
+    if (placement.similar && placement.scale > 0) {
         result.inner_radius += placement.radius / placement.scale;
         result.radius = 0;
+    } else {
+        double least = least_squared[0];
+        for (int i = 1; i < D; ++i) least = std::min(least, least_squared[i]);
+        result.radius *= square_root(std::max(least, 0.0));
     }
-    result.similar = false;
     return result;
 }
 

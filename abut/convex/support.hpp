@@ -37,8 +37,9 @@ struct Placement {
     double radius = 0;        ///< of the ball added after `place`
 };
 
-/// The placement followed by `map`. A set that was stretched and then rounded can't be stretched again, because its
-/// ball would become the sum of two different ellipsoids. Poses and uniform scales always work.
+/// The placement followed by `map`. The ball of a set that was stretched and then rounded would become a second
+/// ellipsoid under a map that stretches again. It stays a ball inside of that one: its radius changes by the least
+/// factor of the map, or less if the map shears.
 template <int D>
 Placement<D> mapped(const Placement<D>& placement, const Affine<D>& map);
 

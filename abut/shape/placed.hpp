@@ -67,7 +67,9 @@ inline constexpr bool rounded_after_stretching<Rounded<S>> = was_stretched<std::
 
 }  // namespace detail
 
-/// A negative factor mirrors, 0 flattens.
+/// A negative factor mirrors, 0 flattens. A shape that was stretched and then rounded can't be stretched again: that is
+/// the sum of two ellipsoids. Where the type doesn't show it, as of a child of a compound, the rounding stays round and
+/// changes by the least factor.
 template <class S>
 requires Shape<std::remove_cvref_t<S>> Stretched<S> stretched(S&& shape,
                                                               const Vec<dimension<std::remove_cvref_t<S>>>& scale) {

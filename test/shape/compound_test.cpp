@@ -65,6 +65,28 @@ TEST(Compound, OfLevelsReportsTheChildAndIsSolidWhereThatIs) {
     EXPECT_FALSE(overlaps(outer, Sphere{{10, 0, 10}, 0.5f}));  // within the mesh's surface
 }
 
+TEST(Compound, StretchesAChildThatWasStretchedAndThenRounded) {
+    // The child is an ellipse of the half axes 2 and 1 with a ball of 0.5 about it. Stretched by 3 and 4, its half axes
+    // are 6 and 4, and its ball has a radius of 1.5: the least factor.
+    const auto child = rounded(stretched(Circle{{0, 0}, 1}, {2, 1}), 0.5f);
+    const auto compound = *Compound2::build({child});
+    const auto shape = stretched(compound, {3, -4});
+    EXPECT_NEAR(closest(shape, Vec2(17.5f, 0)).distance, 10, 1e-4);
+    EXPECT_NEAR(closest(shape, Vec2(0, 15.5f)).distance, 10, 1e-4);
+    EXPECT_NEAR(closest(stretched(compound, {3, 0}), Vec2(16, 0)).distance, 10, 1e-4);
+    // Its box contains it, also where the stretching shears.
+    for (std::uint64_t seed = 0; seed < 200; ++seed) {
+        oracle::Random random(seed);
+        const Vec2 scale = detail::to_float(random.in_cube<2>() * 3.0);
+        const auto turned =
+            stretched(at(compound, Pose2{detail::to_float(random.in_cube<2>()), random.rotation<2>()}), scale);
+        const Aabb2 box = bounds(turned);
+        const Vec2 point = detail::to_float(random.in_cube<2>() * 20.0);
+        const auto nearest = closest(turned, point);
+        EXPECT_TRUE(contains(grown(box, 1e-4f), nearest.on_a)) << "seed " << seed;
+    }
+}
+
 /// A compound of an instance of a mesh in a world: nothing is copied, and all queries find it.
 TEST(Compound, InAWorldOutlivesWhatItWasMadeOf) {
     World3 world;

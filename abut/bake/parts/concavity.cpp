@@ -182,12 +182,12 @@ double farthest(std::span<const Corners> surface, std::span<const BoundedTriangl
         if (here + part.radius <= allowed || (nearest != nullptr && is_near(*nearest, corners))) return;
         constexpr double rounding = 1.00001;
         const double reach = (here + 2 * part.radius) * rounding, square = reach * reach;
-        std::vector<std::uint32_t> kept;
+        std::vector<std::uint32_t> remaining;
         for (const std::uint32_t k : near)
-            if (nearest_squared(square, target[k], part.center) < square) kept.push_back(k);
+            if (nearest_squared(square, target[k], part.center) < square) remaining.push_back(k);
         const auto [first, second] = bisected(corners);
-        self(self, second, kept);
-        self(self, first, kept);
+        self(self, second, remaining);
+        self(self, first, remaining);
     };
     std::vector<std::uint32_t> all(target.size());
     std::iota(all.begin(), all.end(), 0u);
