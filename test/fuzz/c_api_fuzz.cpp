@@ -102,7 +102,8 @@ struct Caller {
         else
             while (result.size() < 8) result.push_back(bytes.byte());
         const std::uint8_t change = bytes.byte();
-        if (change % 4 == 0 && !result.empty()) result[change * 37u % result.size()] ^= 1 << change % 8;
+        if (change % 4 == 0 && !result.empty())
+            result[change * 37u % result.size()] ^= static_cast<std::uint8_t>(1u << change % 8);
         if (change % 4 == 1) result.resize(result.size() * change / 256);
         return result;
     }
