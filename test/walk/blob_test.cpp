@@ -55,7 +55,7 @@ std::vector<Vec3> normals_of(const Surface& surface) {
 
 template <class T>
 bool same_bits(const T& a, const T& b) {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(a[0])) == 0;
+    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(a[0])) == 0);
 }
 
 void expect_same(const MeshTree& a, const MeshTree& b) {

@@ -143,7 +143,8 @@ ABUT_C_TYPES(3)
 /// Two half-spaces are no pair.
 template <int D>
 Fault pair_of(const ShapeHandle<D>* a, const ShapeHandle<D>* b) {
-    if (a == nullptr || b == nullptr || !a->is_half_space || !b->is_half_space) return {};
+    for (const ShapeHandle<D>* shape : {a, b})
+        if (present(shape, "").code != ABUT_OK || !shape->is_half_space) return {};  // another fault, or a pair
     return {ABUT_WRONG_SHAPE, "b", "is a half-space as a is, and two half-spaces are no pair"};
 }
 

@@ -59,7 +59,7 @@ public:
     void begin_update(std::size_t items) {
         static_assert(std::is_trivially_copyable_v<OfSlot>);
         of_slot_.resize(items);
-        std::memset(static_cast<void*>(of_slot_.data()), 0, items * sizeof(OfSlot));
+        if (items > 0) std::memset(static_cast<void*>(of_slot_.data()), 0, items * sizeof(OfSlot));
         end_ = 1;
     }
     /// Counts an item near this one, which may be a neighbour.
