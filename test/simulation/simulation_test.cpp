@@ -3,7 +3,7 @@
 // shown with a short sequence of operations that leads to it.
 
 #include "../oracle/is_long.hpp"
-#include "support/game.hpp"
+#include "../world/support/game.hpp"
 
 #include <iostream>
 
