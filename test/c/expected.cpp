@@ -7,6 +7,8 @@
 #include <cstring>
 #include <deque>
 #include <functional>
+#include <list>
+#include <memory>
 
 namespace {
 
@@ -43,12 +45,12 @@ class Scene {
 public:
     template <class S>
     void add(S shape) {
-        auto* stored = new S(std::move(shape));  // the scene lives as long as the program
+        const auto stored = std::make_shared<const S>(std::move(shape));
         Item<D> item{View<D>(view(*stored)),
                      [stored](const Pose<D>& pose) { return View<D>(view(abut::at(*stored, pose))); },
                      {}};
         if constexpr (std::is_same_v<S, Aabb<D>>)
-            item.polytope = view(*new PolytopeOf<D>(abut::polytope(*stored)));
+            item.polytope = view(polytopes_.emplace_back(abut::polytope(*stored)));
         else if constexpr (PolytopeShape<S>)
             item.polytope = view(*stored);
         items_.push_back(std::move(item));
@@ -58,6 +60,7 @@ public:
 
 private:
     std::deque<Item<D>> items_;
+    std::list<PolytopeOf<D>> polytopes_;  // what views refer to stays where it is, also when the scene moves
 };
 
 template <int D>

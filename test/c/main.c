@@ -175,10 +175,11 @@ static void query_walk_mesh(void) {
     place.triangle = 0;
     place.weights.x = place.weights.y = place.weights.z = 0;
     CHECK(abut_walk_mesh_walk(mesh, place, step, &walked) == ABUT_BAD_ARGUMENT);
-    CHECK(abut_walk_mesh_build(corners, 0, 3, cube, 1, NULL, NULL, &mesh) == ABUT_OK);
-    abut_walk_mesh* none = NULL;
+    abut_walk_mesh *triangle = NULL, *none = NULL;
+    CHECK(abut_walk_mesh_build(corners, 0, 3, cube, 1, NULL, NULL, &triangle) == ABUT_OK);
     CHECK(abut_walk_mesh_build(corners, 0, 2, cube, 1, NULL, NULL, &none) == ABUT_INDEX_OUT_OF_RANGE && none == NULL);
     abut_buffer_release(buffer);
+    abut_walk_mesh_release(triangle);
     abut_walk_mesh_release(loaded);
     abut_walk_mesh_release(mesh);
 }
