@@ -117,6 +117,8 @@ TEST(Corpus, PassesPairsThatOnceFailed) {
         {3, Family::zero_size, 2272996, "no common point was found of what overlaps"},
         {3, Family::identical, 7866158, "the same: weights of a needle lost their digits"},
         {3, Family::needle, 8159688, "the same"},
+        {2, Family::far, 5032133, "corners 5e-4 apart taken to touch, so that an edge was the closest feature"},
+        {3, Family::lattice, 9170584, "a point 0.4 beside a thin hull, behind all of its planes, taken to be inside"},
     };
     for (const auto& [dimension, family, seed, was] : found) {
         const Verdict verdict = check_corpus_pair(dimension, family, seed);

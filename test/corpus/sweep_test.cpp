@@ -116,6 +116,24 @@ TEST(SweepCorpus, IsNeverLateNorMissedNorFalse) {
     expect_right(judged_sweeps(pairs, [](const Place& where) { return judged_sweep(where); }));
 }
 
+/// Sweeps beyond the first twenty thousand that once failed, with the reason.
+TEST(SweepCorpus, PassesSweepsThatOnceFailed) {
+    const struct {
+        int dimension;
+        Family family;
+        std::uint64_t seed;
+        const char* was;
+    } found[] = {
+        {3, Family::lattice, 766984, "a segment between two equal points at a rounded triangle: the point was NaN"},
+        {3, Family::mixed_sizes, 207666, "the same"},
+        {3, Family::far, 33368, "the same"},
+        {2, Family::far, 566333, "corners 1e-4 apart taken to touch, so that the normal was that of an edge"},
+    };
+    for (const auto& [dimension, family, seed, was] : found)
+        EXPECT_EQ(judged_sweep({dimension, family, seed}).story, "")
+            << dimension << "D " << name_of(family) << " seed " << seed << ", once: " << was;
+}
+
 TEST(SweepCorpus, OfPlainShapesIsNeverLateNorMissedNorFalse) {
     const auto pairs = static_cast<std::uint64_t>(std::min(oracle::case_count(usual_sweeps), 1'100'000));
     expect_right(judged_sweeps(pairs, [](const Place& where) { return judged_plain_sweep(where.family, where.seed); }));

@@ -170,10 +170,12 @@ private:
                             corner_b = widest.of == 0 ? widest.corner : end;
         return set_corners(corner_a, corner_b, false, closest) || walk(corner_a, corner_b, closest);
     }
-    /// From an edge and the corners at its end. If these touch, the edge remains the closest feature.
+    /// From an edge and the corners at its end. If these touch, the edge remains the closest feature, unless it is
+    /// nearer than they are: far from the origin corners count as touching that aren't.
     [[gnu::noinline]] bool walk(std::uint32_t corner_a, std::uint32_t corner_b, ClosestFeatures2& closest) const {
         const Double2 between = seen_[0].point(shapes_[1].corner(corner_b)) - shapes_[0].corner(corner_a);
-        if (lanes::dot(between, between)[0] <= touching() * touching()) return true;
+        const double square = lanes::dot(between, between)[0];
+        if (square <= touching() * touching()) return square_root(square) - closest.gap <= 1e-14 * scale();
         FeaturePair features{{corner_a, corner_b}, false, 0, 0};
         const Rigid2 places[2] = {rigid(seen_[0]), rigid(seen_[1])};
         SoaStorage storage[2];

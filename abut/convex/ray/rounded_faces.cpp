@@ -155,9 +155,11 @@ double segment_part(const RayEntry<3>& entry, const Corners& corners, const DVec
     DVec<3> across = half;
     if (is_edge) {
         const DVec<3> edge = corners[entry.index >> 16] - start;
-        across -= edge * (dot(edge, half) / length_squared(edge));
+        if (const double squared = length_squared(edge); squared > 0) across -= edge * (dot(edge, half) / squared);
     }
-    return std::clamp(-dot(core_point - start, across) / length_squared(across), -1.0, 1.0);
+    // The ends of a segment may be the same point.
+    const double squared = length_squared(across);
+    return squared > 0 ? std::clamp(-dot(core_point - start, across) / squared, -1.0, 1.0) : 0;
 }
 
 }  // namespace
