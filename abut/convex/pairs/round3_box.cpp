@@ -118,7 +118,8 @@ double parameter_below(const SeenSegment& s, const SeparatingDirection& directio
         high = std::min(high, std::max(a, b));
     }
     const double deepest = s.along[direction.axis] * direction.out[direction.axis] > 0 ? 0 : 1;
-    return std::min(std::max(deepest, low), high);
+    // A segment along a face of which rounding leaves no part over the face: its deepest end.
+    return low <= high ? std::min(std::max(deepest, low), high) : deepest;
 }
 
 /// The point of the segment nearest to the line of the edge at `corner`, along the separating direction.
