@@ -224,7 +224,10 @@ void clip(Face<D>& face, const DVec<D>& normal, double offset, std::uint32_t pla
         const double there = height(j);
         if ((here < 0) == (there < 0) || here == 0 || there == 0 || face.count == Face<D>::capacity) continue;
         const DVec<D> point = before.points[i] + (before.points[j] - before.points[i]) * (here / (here - there));
-        face.push_back(point, (plane_name + 1) << 16 | ((here > 0 ? before.indices[i] : before.indices[j]) & 0xffffu));
+        // The name of the point outside, and whether the edge comes back from it: one point may end both edges.
+        const bool returns = here > 0;
+        const std::uint32_t outside = before.indices[returns ? i : j] & 0x7fffu;
+        face.push_back(point, (plane_name + 1) << 16 | (returns ? 0x8000u : 0u) | outside);
     }
 }
 

@@ -50,10 +50,10 @@ std::uint64_t hash_of_answers() {
 class Golden : public oracle::BySimdTarget {};
 
 TEST_P(Golden, AnswersInThePlaneHaveTheSameBitsEverywhere) {
-    EXPECT_EQ(hash_of_answers<2>(), 507605480454300265u);
+    EXPECT_EQ(hash_of_answers<2>(), 11006715603740303977u);
 }
 TEST_P(Golden, AnswersInSpaceHaveTheSameBitsEverywhere) {
-    EXPECT_EQ(hash_of_answers<3>(), 17006860094429097013u);
+    EXPECT_EQ(hash_of_answers<3>(), 8384549226922306909u);
 }
 
 INSTANTIATE_TEST_SUITE_P(Targets, Golden, oracle::simd_targets(), oracle::simd_target_name);
