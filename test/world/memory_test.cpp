@@ -76,12 +76,12 @@ TEST(Memory, OfAnItem) {
 }
 
 /// The pages of memory that the program has; 0 where the system doesn't show them, or a sanitizer holds what was freed.
-std::size_t resident_pages() {
-    std::size_t all = 0, resident = 0;
+std::size_t pages_in_memory() {
+    std::size_t all = 0, here = 0;
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-    std::ifstream("/proc/self/statm") >> all >> resident;
+    std::ifstream("/proc/self/statm") >> all >> here;
 #endif
-    return resident;
+    return here;
 }
 
 /// The most memory of a world in two halves of many frames, in which items come, go, move and get other shapes, without
@@ -129,7 +129,7 @@ std::array<MostMemory, 2> most_memory(int frames, std::uint64_t seed) {
         if (frame < warm) continue;
         MostMemory& most = result[frame < (warm + frames) / 2 ? 0 : 1];
         most.allocated = std::max(most.allocated, allocated_bytes());
-        if (frame % 100 == 0) most.pages = std::max(most.pages, resident_pages());
+        if (frame % 100 == 0) most.pages = std::max(most.pages, pages_in_memory());
     }
     return result;
 }
