@@ -103,8 +103,8 @@ void play_all(std::uint64_t first_seed, bool lattice, double continuous) {
     ThreadPool pool(2);
     Seen seen;
     for (int i = 0; i < games; ++i) {
-        const Scene scene{first_seed + static_cast<std::uint64_t>(i), std::array{40, 12, 25, 60}[i % 4], lattice,
-                          continuous};
+        const Scene scene{first_seed + static_cast<std::uint64_t>(i),
+                          std::array{40, 12, 25, 60}[static_cast<std::size_t>(i % 4)], lattice, continuous};
         ASSERT_NO_FATAL_FAILURE(play_or_explain<D>(scene, operations, pool, seen));
     }
     std::cout << games * operations << " operations from seed " << first_seed << ": " << seen << "\n";
