@@ -6,7 +6,7 @@ namespace abut::detail {
 namespace {
 
 /// The tolerance of two bounds that should agree, relative to the sum of all coordinates.
-constexpr double box_tolerance = 1e-10;
+constexpr double box_tolerance = 1e-12;
 
 Triple corner_of_b(const BoxFrame& frame, std::uint32_t number) {
     Triple result{frame.middle[0], frame.middle[1], frame.middle[2]};
