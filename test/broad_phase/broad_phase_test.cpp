@@ -285,7 +285,7 @@ void have_the_same_pairs_with_several_threads(const AnyBroadPhase<D>& empty) {
                     found.emplace_back(i, j);
                 };
                 phase.each_pair(keep, &executor);
-                std::sort(found.begin(), found.end());
+                detail::sort_pairs(found);
                 EXPECT_EQ(found, expected);
                 std::atomic<int> visited_count = 0;
                 phase.each_pair([&](std::uint32_t, std::uint32_t) { return ++visited_count, false; }, &executor);

@@ -159,15 +159,15 @@ TEST(Allocation, OfLevelQueriesIsNone) {
     std::vector<Vec2> corners;
     std::vector<Tile> tiles;
     std::vector<float> heights;
-    for (std::uint32_t i = 0; i < 400; ++i) {
+    for (std::uint32_t i = 0; i < 100; ++i) {
         corners.push_back(to_float(random.in_cube<2>() * 3.0));
         tiles.push_back(static_cast<Tile>(random.below(14)));
         heights.push_back(random.uniform_float(-1, 1));
     }
     const Chain chain = *Chain::build(corners, true);
-    const TileMap map = *TileMap::build(tiles, 20, 0.3f);
+    const TileMap map = *TileMap::build(tiles, 10, 0.3f);
     const Compound2 both = *Compound2::build({chain, at(map, Pose2{{1, 1}}), Circle{{0, 0}, 1}});
-    const HeightField field = *HeightField::build(heights, 20, 0.2f);
+    const HeightField field = *HeightField::build(heights, 10, 0.4f);
     const Compound3 ground = *Compound3::build({field, at(field, Pose3{{0, 0, 1}}), Sphere{{0, 0, 0}, 1}});
     std::vector<std::uint64_t> bits(8 * 8 * 8 / 64);
     for (std::uint64_t& word : bits) word = random.bits();

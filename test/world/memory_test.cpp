@@ -3,6 +3,7 @@
 #include "../broad_phase/allocations.hpp"
 #include "../oracle/is_long.hpp"
 #include "../oracle/random.hpp"
+#include "../oracle/sanitized.hpp"
 #include <abut/shape/ball.hpp>
 #include <abut/shape/box.hpp>
 #include <abut/world/world.hpp>
@@ -78,9 +79,7 @@ TEST(Memory, OfAnItem) {
 /// The pages of memory that the program has; 0 where the system doesn't show them, or a sanitizer holds what was freed.
 std::size_t pages_in_memory() {
     std::size_t all = 0, here = 0;
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-    std::ifstream("/proc/self/statm") >> all >> here;
-#endif
+    if (!oracle::sanitized) std::ifstream("/proc/self/statm") >> all >> here;
     return here;
 }
 
