@@ -225,6 +225,24 @@ TEST(Boxes, TouchWhereTheSearchesSay) {
     EXPECT_GT(similar, touching * 9 / 10);
 }
 
+/// Regression: the point of contact was 5.6e-8 off the larger box, and the normal 0.013 rad off.
+TEST(Boxes, OfAMillimetreTouchThoseOfHalfAKilometre) {
+    const Box3 small{{0, 0, 0},
+                     {0.000503779971f, 0.00048122913f, 0.000784267031f},
+                     {0.297415495f, -0.136282846f, 0.582673907f, 0.743950307f}};
+    const Box3 large{{108.420113f, -374.035217f, -16.4568787f},
+                     {131.876694f, 268.227295f, 364.861237f},
+                     {0.214475989f, -0.441059619f, 0.147537783f, 0.85889411f}};
+    PartContact<3> contact;
+    ASSERT_TRUE(part_contact<3>(view(small), view(large), 1e-4, 1e-4, {}, contact));
+    ASSERT_EQ(contact.manifold.count, 1u);
+    const ManifoldPoint<3>& point = contact.manifold.points[0];
+    for (const double side : {0.5, -0.5}) {
+        const DVec<3> surface = point.position + contact.distance.normal * (side * point.depth);
+        EXPECT_LE(closest(side > 0 ? small : large, to_float(surface)).distance, 5e-9);
+    }
+}
+
 TEST(Boxes, NeedNoCacheAndMindNone) {
     Cache strange;
     each_pair([&](const Boxes& boxes, Random& random) {
