@@ -34,6 +34,11 @@ void release(void* memory) {
 std::size_t abut::test::allocations() {
     return count;
 }
+bool abut::test::counts_allocations() {
+    const std::size_t before = count;
+    ::operator delete(::operator new(1));
+    return count > before;
+}
 std::size_t abut::test::allocated_bytes() {
     return bytes;
 }

@@ -248,6 +248,7 @@ TYPED_TEST(Batch, AddedAndRemovedItemsAreThoseOfOneByOne) {
 }
 
 TEST(BatchMemory, QuestionsAllocateNothingOnceWarm) {
+    if (!counts_allocations()) GTEST_SKIP() << "not in builds with sanitizers";
     Simulation<3> game(24, 60);
     game.world.update();
     const World3& world = game.world;
