@@ -28,7 +28,7 @@ void BallEarlyOuts::add_sample(Entry& entry, const std::array<double, 3>& nanose
     constexpr std::array<std::size_t, 2> balls_first{0, 1};
     const std::span<const std::size_t> order(balls_first);
     entry.sampled.add(nanoseconds, (balls_overlap ? 1u : 0u) | (shapes_overlap ? 2u : 0u),
-                      order.subspan(entry.pays ? 0 : 1));
+                      order.subspan(entry.is_used ? 0 : 1));
     has_new_samples_ = true;
 }
 
@@ -39,7 +39,7 @@ void BallEarlyOuts::decide() {
         for (Entry& entry : entries) {
             if (entry.sampled.samples() < SampledTests<2>::enough) continue;
             const TestCost balls = entry.sampled.cost(0), shapes = entry.sampled.cost(1);
-            entry.pays = worth_pretesting(balls.time, balls.pass, shapes.time);
+            entry.is_used = worth_pretesting(balls.time, balls.pass, shapes.time);
             entry.sampled.fade();
         }
 }

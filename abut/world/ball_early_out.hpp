@@ -42,11 +42,14 @@ ShapeType shape_type(const View<D>& view);
 /// (contact).
 class BallEarlyOuts {
 public:
-    explicit BallEarlyOuts(BallEarlyOut mode = BallEarlyOut::measured) : mode_(mode) {}
+    explicit BallEarlyOuts(BallEarlyOut mode = BallEarlyOut::measured) : mode_(mode) {
+        for (auto& entries : entries_)
+            for (Entry& entry : entries) entry.is_used = mode == BallEarlyOut::always;
+    }
 
     struct Entry {
         SampledTests<2> sampled;  ///< 0: the balls, 1: the shapes
-        bool pays = false;        ///< whether the early out costs less than it saves
+        bool is_used = false;     ///< if measured, whether the early out costs less than it saves
     };
 
     Entry& entry(ShapeType a, ShapeType b, bool sensor) {
@@ -54,9 +57,6 @@ public:
         return entries_[sensor ? 1 : 0][high * (high + 1) / 2 + low];
     }
 
-    bool is_used(const Entry& entry) const {
-        return mode_ == BallEarlyOut::measured ? entry.pays : mode_ == BallEarlyOut::always;
-    }
     /// Whether to measure this pair, which runs both tests regardless of their results. Call it once for each pair.
     bool due(Entry& entry) const { return mode_ == BallEarlyOut::measured && entry.sampled.due(); }
     /// Adds the times, in nanoseconds, of an empty measurement, of the balls' test and of the shapes' test, and the

@@ -32,7 +32,7 @@ void World<D>::refresh_now() {
 
 /// Whether two items pair where they are near.
 template <int D>
-bool World<D>::may_pair(std::uint32_t slot, std::uint32_t other) const {
+inline bool World<D>::may_pair(std::uint32_t slot, std::uint32_t other) const {
     return items_[slot].may_pair(items_[other]) &&
            (!pair_filter_ || pair_filter_(id_of(std::min(slot, other)), id_of(std::max(slot, other))));
 }
@@ -64,6 +64,7 @@ void World<D>::find_near(Executor* executor) {
     if (filters_edges_) memory_->neighbours.begin_update(items_.size());
     // Whether the broad phases hold boxes that are larger than those of the items.
     const bool is_large = positions_.are_used(), is_wider = widened_ || is_large;
+    const bool are_cached = items_.size() <= detail::max_cached_items;
     detail::Mutex mutex;
     const auto add = [&](const detail::ItemBoxes<D>& first, const detail::ItemBoxes<D>& second,
                          std::span<const detail::ItemPair> pairs) {
@@ -72,10 +73,11 @@ void World<D>::find_near(Executor* executor) {
             std::array<detail::SlotPair, batch> found;
             std::size_t count = 0;
             const std::span next = pairs.first(std::min(batch, pairs.size()));
-            for (const auto& [i, j] : next) {
-                hwy::Prefetch(&items_[first.slot(i)].mask);
-                hwy::Prefetch(&items_[second.slot(j)].mask);
-            }
+            if (!are_cached)
+                for (const auto& [i, j] : next) {
+                    hwy::Prefetch(&items_[first.slot(i)].mask);
+                    hwy::Prefetch(&items_[second.slot(j)].mask);
+                }
             for (const auto& [i, j] : next) {
                 const std::uint32_t slot = first.slot(i), other = second.slot(j);
                 const bool are_near =
@@ -201,20 +203,22 @@ void World<D>::join_results(std::span<detail::PairResults<D>> parts) {
 template <int D>
 void World<D>::compare_with_last() {
     began_.clear();
-    stayed_.clear();
     ended_.clear();
-    auto now = touching_.begin();
-    auto then = last_touching_.begin();
-    while (now != touching_.end() || then != last_touching_.end()) {
-        if (then == last_touching_.end() || (now != touching_.end() && *now < *then)) {
-            began_.push_back(*now++);
-        } else if (now == touching_.end() || *then < *now) {
-            ended_.push_back(*then++);
-        } else {
-            stayed_.push_back(*now++);
+    stayed_.resize(std::min(touching_.size(), last_touching_.size()));
+    auto now = touching_.begin(), then = last_touching_.begin(), stayed = stayed_.begin();
+    while (now != touching_.end() && then != last_touching_.end()) {
+        if (*now == *then) {
+            *stayed++ = *now++;
             ++then;
+        } else if (*now < *then) {
+            began_.push_back(*now++);
+        } else {
+            ended_.push_back(*then++);
         }
     }
+    stayed_.erase(stayed, stayed_.end());
+    began_.insert(began_.end(), now, touching_.end());
+    ended_.insert(ended_.end(), then, last_touching_.end());
     // The lists share no pair: a pair in results_.passed touches neither now nor at the last update.
     const auto add = [](const std::vector<IdPair>& passed, std::vector<IdPair>& list) {
         if (passed.empty()) return;
@@ -247,6 +251,7 @@ Events World<D>::find_events(Executor* executor) {
     for (std::vector<IdPair>* list : {&results_.passed, &last_passed_}) list->reserve(results_.impacts.capacity());
     for (std::vector<IdPair>* list : {&began_, &ended_}) list->reserve(capacity + results_.impacts.capacity());
     fractions_.reserve(began_.capacity());
+    results_.reserve_like(results_);                // states may be fewer than contacts
     memory_->parts.front().reserve_like(results_);  // the two are swapped
     contacts_.reserve(results_.found.contacts.capacity());
     last_near_.reserve(near_.capacity());

@@ -50,6 +50,7 @@ Id World<D>::add_item(const Item& with_shape, const ItemOptions<D>& options) {
         items_[slot].stored = with_shape.stored;
         items_[slot].type = with_shape.type;
         items_[slot].local_ball = with_shape.local_ball;
+        items_[slot].ball_is_centered = with_shape.ball_is_centered;
     }
     Item& item = items_[slot];
     item.set(options);
@@ -106,6 +107,7 @@ void World<D>::set_shape_data(Item& item) {
     const View<D> own = item.stored.view();
     item.type = shape_type(own);
     item.local_ball = detail::SmallBall<D>::around(detail::bounding_ball(own));
+    item.ball_is_centered = item.local_ball.center == Vec<D>(0.0f);
 }
 
 template <int D>
@@ -162,7 +164,7 @@ void World<D>::move_to(Id id, const Pose<D>& pose) {
 
 /// Keeps the pose of the last update, if the item was there and hasn't moved since.
 template <int D>
-void World<D>::keep_previous_pose(std::uint32_t slot) {
+inline void World<D>::keep_previous_pose(std::uint32_t slot) {
     Item& item = items_[slot];
     if (!item.settled || item.previous != none) return;
     item.previous = static_cast<std::uint32_t>(previous_poses_.size());
@@ -203,7 +205,7 @@ void World<D>::free_slot(std::uint32_t slot) {
 }
 
 template <int D>
-void World<D>::update_box(std::uint32_t slot) {
+inline void World<D>::update_box(std::uint32_t slot) {
     Item& item = items_[slot];
     // Returned by one call, the box stays in registers.
     if (item.enabled && !positions_.are_used())
@@ -261,20 +263,19 @@ bool World<D>::are_boxes_near(std::uint32_t slot, std::uint32_t other) const {
 
 template <int D>
 BoundingBall<D> World<D>::ball(std::uint32_t slot, const DVec<D>& about) const {
-    const detail::SmallBall<D>& local = items_[slot].local_ball;
-    const Pose<D>& pose = items_[slot].pose;
+    const Item& item = items_[slot];
+    const Pose<D>& pose = item.pose;
     Affine<D> place;
-    // Most shapes lie about the origin of their own frame, and no rotation moves their ball.
-    if (local.center == Vec<D>(0.0f))
+    if (item.ball_is_centered)
         place.offset = DVec<D>(pose.position);
     else
         place = affine(pose);
     if (positions_.are_used()) place.offset += positions_.of(slot) - about;
-    return detail::moved(local.ball(), place);
+    return detail::moved(item.local_ball.ball(), place);
 }
 
 template <int D>
-void World<D>::mark_pending(std::uint32_t slot) {
+inline void World<D>::mark_pending(std::uint32_t slot) {
     items_[slot].pending_in_box = false;
     if (items_[slot].pending) return;
     items_[slot].pending = true;

@@ -428,7 +428,7 @@ private:
     bool filters_edges(std::uint32_t slot) const;
     bool are_neighbours(std::uint32_t slot, std::uint32_t other) const;
     void find_changed_neighbours();
-    bool neighbours_changed(const IdPair& pair);
+    bool neighbours_changed(const detail::SlotPair& pair);
     bool is_covered(std::size_t ghost, const Id& item) const;
     void link_contacts();
     bool is_reported(std::size_t found);

@@ -1,5 +1,6 @@
 #include "../oracle/random.hpp"
 #include <abut/math/detail/round_outwards.hpp>
+#include <abut/math/simd/lanes-inl.h>
 
 #include <bit>
 #include <cmath>
@@ -18,6 +19,12 @@ void expect_rounded(double x) {
     const float above = static_cast<double>(nearest) < x ? std::nextafter(nearest, infinity) : nearest;
     EXPECT_EQ(std::bit_cast<std::uint32_t>(float_at_most(x)), std::bit_cast<std::uint32_t>(below)) << x;
     EXPECT_EQ(std::bit_cast<std::uint32_t>(float_at_least(x)), std::bit_cast<std::uint32_t>(above)) << x;
+    const lanes::Floats4 outer = lanes::floats_at_least({x, 1.0}, {-1.0, x}),
+                         inner = lanes::floats_at_least({1.0, x}, {x, -1.0});
+    for (const float lane : {outer[0], inner[1], inner[2], outer[3]})
+        EXPECT_EQ(std::bit_cast<std::uint32_t>(lane), std::bit_cast<std::uint32_t>(above)) << x;
+    EXPECT_EQ(outer[1], 1);
+    EXPECT_EQ(outer[2], -1);
 }
 
 TEST(RoundOutwards, IsTheAdjacentFloat) {

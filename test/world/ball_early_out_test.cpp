@@ -58,23 +58,23 @@ TEST(BallEarlyOut, IsUsedWhereMeasurementsSayThatItPays) {
     detail::BallEarlyOuts::Entry& boxes = early_outs.entry(detail::ShapeType::box, detail::ShapeType::box, false);
     detail::BallEarlyOuts::Entry& balls = early_outs.entry(detail::ShapeType::ball, detail::ShapeType::ball, false);
     detail::BallEarlyOuts::Entry& others = early_outs.entry(detail::ShapeType::box, detail::ShapeType::ball, false);
-    EXPECT_FALSE(early_outs.is_used(boxes));
+    EXPECT_FALSE(boxes.is_used);
     measure(early_outs, boxes, 31, 300, 4);
     early_outs.decide();
-    EXPECT_FALSE(early_outs.is_used(boxes)) << "too few samples";
+    EXPECT_FALSE(boxes.is_used) << "too few samples";
     measure(early_outs, boxes, 1, 300, 4);
     measure(early_outs, balls, 40, 6, 4);
-    EXPECT_FALSE(early_outs.is_used(boxes)) << "decide() was not called";
+    EXPECT_FALSE(boxes.is_used) << "decide() was not called";
     early_outs.decide();
-    EXPECT_TRUE(early_outs.is_used(boxes)) << "5 + 300 / 4 < 300";
-    EXPECT_FALSE(early_outs.is_used(balls)) << "5 + 6 / 4 > 6";
-    EXPECT_FALSE(early_outs.is_used(others));
+    EXPECT_TRUE(boxes.is_used) << "5 + 300 / 4 < 300";
+    EXPECT_FALSE(balls.is_used) << "5 + 6 / 4 > 6";
+    EXPECT_FALSE(others.is_used);
     // Now the balls overlap nearly always.
     for (int frame = 0; frame < 20; ++frame) {
         measure(early_outs, boxes, 400, 300, 1);
         early_outs.decide();
     }
-    EXPECT_FALSE(early_outs.is_used(boxes));
+    EXPECT_FALSE(boxes.is_used);
 }
 
 TEST(BallEarlyOut, ForcedModesDontMeasure) {
@@ -84,7 +84,7 @@ TEST(BallEarlyOut, ForcedModesDontMeasure) {
         for (const detail::ShapeType a : all_types)
             for (int i = 0; i < 1000; ++i) due += early_outs.due(early_outs.entry(a, a, true)) ? 1 : 0;
         EXPECT_EQ(due, mode == BallEarlyOut::measured ? 9 * 3 : 0);
-        EXPECT_EQ(early_outs.is_used(early_outs.entry(detail::ShapeType::box, detail::ShapeType::box, false)),
+        EXPECT_EQ(early_outs.entry(detail::ShapeType::box, detail::ShapeType::box, false).is_used,
                   mode == BallEarlyOut::always);
     }
 }

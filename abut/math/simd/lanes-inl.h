@@ -4,6 +4,7 @@
 // that compilers handle as they like. They serve functions so short that the dynamic dispatch of Highway would cost as
 // much as the work. Each operation rounds as that of a scalar does. For .cpp files.
 
+#include <abut/math/detail/round_outwards.hpp>
 #include <abut/math/simd/square_root.hpp>
 
 #include <array>
@@ -158,6 +159,16 @@ inline Double2 loaded_twice(const float& number) {
 }
 inline void store(Double2 v, float* two) {
     _mm_storel_pi(reinterpret_cast<__m64*>(two), _mm_cvtpd_ps(v.raw));
+}
+/// The smallest floats that are not below the lanes of a and of b.
+inline Floats4 floats_at_least(Double2 a, Double2 b) {
+    const __m128 nearest = _mm_movelh_ps(_mm_cvtpd_ps(a.raw), _mm_cvtpd_ps(b.raw));
+    const __m128d a_is_above = _mm_cmplt_pd(_mm_cvtps_pd(nearest), a.raw),
+                  b_is_above = _mm_cmplt_pd(_mm_cvtps_pd(_mm_movehl_ps(nearest, nearest)), b.raw);
+    const __m128i are_above = _mm_castps_si128(
+        _mm_shuffle_ps(_mm_castpd_ps(a_is_above), _mm_castpd_ps(b_is_above), _MM_SHUFFLE(2, 0, 2, 0)));
+    const __m128i bits = _mm_castps_si128(nearest), step = _mm_or_si128(_mm_srai_epi32(bits, 31), _mm_set1_epi32(1));
+    return _mm_castsi128_ps(_mm_add_epi32(bits, _mm_and_si128(step, are_above)));
 }
 /// Lane i of a, then lane j of b.
 template <int i, int j>
@@ -382,6 +393,10 @@ inline Double2 loaded_twice(const float& number) {
 inline void store(const Double2& v, float* two) {
     two[0] = static_cast<float>(v[0]);
     two[1] = static_cast<float>(v[1]);
+}
+inline Floats4 floats_at_least(const Double2& a, const Double2& b) {
+    return {detail::float_at_least(a[0]), detail::float_at_least(a[1]), detail::float_at_least(b[0]),
+            detail::float_at_least(b[1])};
 }
 template <int i, int j>
 Double2 shuffled(const Double2& a, const Double2& b) {

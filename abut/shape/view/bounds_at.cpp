@@ -1,9 +1,10 @@
-#include <abut/math/detail/round_outwards.hpp>
 #include <abut/math/detail/set_affine.hpp>
+#include <abut/math/simd/lanes-inl.h>
 #include <abut/math/simd/library_entry.hpp>
 #include <abut/shape/any_shape.hpp>
 #include <abut/shape/view/view.hpp>
 
+#include <bit>
 #include <cmath>
 
 namespace abut::detail {
@@ -13,16 +14,21 @@ constexpr double query_margin = 1e-6;
 
 /// The box from `low` to `high` with a ball around it, rounded outwards.
 template <int D>
-Aabb<D> rounded_box(const DVec<D>& low, const DVec<D>& high, double radius, bool grow) {
+[[gnu::always_inline]] inline Aabb<D> rounded_box(const DVec<D>& low, const DVec<D>& high, double radius, bool grow) {
     double size = 0;
     for (int i = 0; i < D; ++i) size += high[i] - low[i] + 2 * radius;
     const double margin = grow ? query_margin * size : 0;
-    Aabb<D> result;
-    for (int i = 0; i < D; ++i) {
-        result.min[i] = float_at_most(low[i] - radius - margin);
-        result.max[i] = float_at_least(high[i] + radius + margin);
+    const auto down = [&](int i) { return -(low[i] - radius - margin); };
+    const auto up = [&](int i) { return high[i] + radius + margin; };
+    using lanes::Double2;
+    if constexpr (D == 2) {
+        const lanes::Floats4 sides = lanes::floats_at_least(Double2(down(0), down(1)), Double2(up(0), up(1)));
+        return std::bit_cast<Aabb<D>>(lanes::flipped_by(sides, {-0.0f, -0.0f, 0.0f, 0.0f}));
+    } else {
+        const lanes::Floats4 sides = lanes::floats_at_least(Double2(down(0), down(1)), Double2(down(2), up(0)));
+        const lanes::Floats4 last = lanes::floats_at_least(Double2(up(1), up(2)), Double2(0.0));
+        return {{-sides[0], -sides[1], -sides[2]}, {sides[3], last[0], last[1]}};
     }
-    return result;
 }
 
 float sum_of(const Turn& turn) {

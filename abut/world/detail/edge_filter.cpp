@@ -159,14 +159,13 @@ void World<D>::PairTests::with_neighbours(std::uint32_t a, std::uint32_t b, bool
 /// Finds the contacts of two items and appends them to results_.found. Those of items without parts are filtered later,
 /// all at once. Returns whether the items touch.
 template <int D>
-bool World<D>::PairTests::find_contact(const IdPair& pair) {
-    const std::uint32_t a = pair.a.index - 1, b = pair.b.index - 1;
-    const ShapeType type_a = items_[a].type, type_b = items_[b].type;
-    const bool has_parts = type_a == ShapeType::composite || type_b == ShapeType::composite;
-    const bool is_filtered = world_.filters_edges_ && !(items_[a].fixed && items_[b].fixed);
+bool World<D>::PairTests::find_contact(const Pair& pair) {
+    const auto& [slots, a, b] = pair;
+    const bool has_parts = a.type == ShapeType::composite || b.type == ShapeType::composite;
+    const bool is_filtered = world_.filters_edges_ && !(a.fixed && b.fixed);
     if (has_parts && is_filtered) return find_surface_contacts(pair);
-    const auto [placed_a, placed_b] = placed_views(pair);
-    WorldContact<D>& found = results_.found.add(pair, {});
+    const auto [placed_a, placed_b] = placed_views(slots);
+    WorldContact<D>& found = results_.found.add(pair.ids());
     UnfilteredContact<D>& unfiltered = memory_.next_unfiltered();
     if (has_parts)
         found.contact = abut::contact(placed_a, placed_b);
@@ -177,8 +176,8 @@ bool World<D>::PairTests::find_contact(const IdPair& pair) {
         return false;
     }
     // Balls have no edges to catch on.
-    if (is_filtered && (type_a != ShapeType::ball || type_b != ShapeType::ball) &&
-        (may_need_filter(a) || may_need_filter(b)) && find_sides_to_filter(found, unfiltered) &&
+    if (is_filtered && (a.type != ShapeType::ball || b.type != ShapeType::ball) &&
+        (may_need_filter(slots.a) || may_need_filter(slots.b)) && find_sides_to_filter(found, unfiltered) &&
         memory_.add_unfiltered(results_.found.size() - 1))
         filter_contacts();
     return true;
@@ -186,8 +185,8 @@ bool World<D>::PairTests::find_contact(const IdPair& pair) {
 
 /// Finds the contacts of two items of which at least one is composite, with the surface of their neighbours.
 template <int D>
-bool World<D>::PairTests::find_surface_contacts(const IdPair& pair) {
-    const std::uint32_t a = pair.a.index - 1, b = pair.b.index - 1;
+bool World<D>::PairTests::find_surface_contacts(const Pair& pair) {
+    const auto& [a, b] = pair.slots;
     const bool for_a = needs_filter(a), for_b = needs_filter(b);
     // Copies: the neighbours may take their places in the cache.
     const View<D> placed_a = placed_view(a), placed_b = placed_view(b);
@@ -195,15 +194,15 @@ bool World<D>::PairTests::find_surface_contacts(const IdPair& pair) {
     bool touch = false;
     with_neighbours(a, b, for_a, for_b, [&](const NeighbourSurfaces<D>& neighbours) {
         touch = each_surface_contact<D>(placed_a, placed_b, {}, neighbours, [&](const SurfaceContact<D>& filtered) {
-            results_.found.add(pair, {});
+            results_.found.add(pair.ids());
             set_found(results_.found.size() - 1, filtered);
             return true;
         });
     });
     // A pair that touches without a contact is in the list too.
     if (touch && results_.found.size() == first) {
-        results_.found.add(pair, {});
-        results_.found.states.back().reported = false;
+        results_.found.add(pair.ids());
+        results_.found.change_state(first).reported = false;
     }
     return touch;
 }
@@ -233,8 +232,9 @@ void World<D>::PairTests::filter_contacts() {
 template <int D>
 void World<D>::PairTests::set_found(std::size_t index, const detail::SurfaceContact<D>& filtered) {
     WorldContact<D>& found = results_.found.contacts[index];
-    FoundState& state = results_.found.states[index];
     found.contact = filtered.contact;
+    if (filtered.surface_normals && found.contact) return;
+    FoundState& state = results_.found.change_state(index);
     state.surface_normal = filtered.surface_normals;
     state.size = static_cast<float>(filtered.size);
     state.reported = static_cast<bool>(filtered.contact);

@@ -39,7 +39,7 @@ struct FoundState {
 template <int D>
 struct FoundContacts {
     std::vector<WorldContact<D>> contacts;
-    std::vector<FoundState> states;  ///< by index in contacts
+    std::vector<FoundState> states;  ///< by index in contacts; it ends where all that follow have the default state
     std::vector<WorldContact<D>> own_areas;
 
     std::size_t size() const { return contacts.size(); }
@@ -57,34 +57,40 @@ struct FoundContacts {
         reserve(other.contacts.capacity());
         own_areas.reserve(other.own_areas.capacity());
     }
+    const FoundState& state(std::size_t index) const { return index < states.size() ? states[index] : default_state; }
+    /// The state of a contact, to be changed.
+    FoundState& change_state(std::size_t index) {
+        if (states.size() <= index) states.resize(index + 1);
+        return states[index];
+    }
     /// Adds contacts `begin` to `end - 1` of a list.
     void append(const FoundContacts& from, std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            contacts.push_back(from.contacts[i]);
-            states.push_back(from.states[i]);
+        const std::size_t first = size();
+        contacts.insert(contacts.end(), from.contacts.begin() + static_cast<std::ptrdiff_t>(begin),
+                        from.contacts.begin() + static_cast<std::ptrdiff_t>(end));
+        for (std::size_t i = begin; i < std::min(end, from.states.size()); ++i) {
+            change_state(first + i - begin) = from.states[i];
             if (const std::uint32_t area = from.states[i].own_area; area != FoundState::no_own_area)
-                set_own_area(states.size() - 1, from.own_areas[area]);
+                set_own_area(first + i - begin, from.own_areas[area]);
         }
     }
     void set_own_area(std::size_t index, const WorldContact<D>& area) {
-        states[index].own_area = static_cast<std::uint32_t>(own_areas.size());
+        change_state(index).own_area = static_cast<std::uint32_t>(own_areas.size());
         own_areas.push_back(area);
     }
-    WorldContact<D>& add(const IdPair& pair, const FoundState& state) {
-        states.push_back(state);
+    WorldContact<D>& add(const IdPair& pair) {
         WorldContact<D>& added = contacts.emplace_back(no_contact);
         added.a = pair.a;
         added.b = pair.b;
         return added;
     }
-    void pop_back() {
-        contacts.pop_back();
-        states.pop_back();
-    }
+    /// Removes the last contact, whose state was not changed.
+    void pop_back() { contacts.pop_back(); }
 
 private:
     /// To copy: compilers clear a new contact byte by byte.
     static inline const WorldContact<D> no_contact{};
+    static constexpr FoundState default_state{};
 };
 
 }  // namespace abut::detail

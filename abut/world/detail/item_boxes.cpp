@@ -8,8 +8,6 @@
 namespace abut::detail {
 namespace {
 
-/// The number of stale boxes up to which queries test them one by one.
-constexpr std::size_t max_stale = 8;
 /// If more than this fraction of the boxes is stale (1 / 8), a refit costs no more than setting them one by one.
 constexpr std::size_t refit_divisor = 8;
 
@@ -56,14 +54,6 @@ std::uint32_t ItemBoxes<D>::add(std::uint32_t slot, double queries) {
     free_.pop_back();
     slots_[place] = slot;
     return place;
-}
-
-template <int D>
-void ItemBoxes<D>::mark_stale(std::uint32_t place) {
-    is_stale_[place] = true;
-    reserve_one_more(stale_);
-    stale_.push_back(place);
-    if (stale_.size() > max_stale) pending_work_.defer();
 }
 
 /// Records that the broad phase holds the present boxes.

@@ -3,6 +3,7 @@
 // The AABBs of a world's fixed items, or of its moving ones, with a broad phase over them.
 
 #include <abut/broad_phase/chosen_broad_phase.hpp>
+#include <abut/broad_phase/detail/reserve_one_more.hpp>
 #include <abut/math/aabb.hpp>
 #include <abut/world/detail/deferred_work.hpp>
 
@@ -65,7 +66,15 @@ public:
     void closest(const Aabb<D>& box, ReachCall visit, float max_distance) const;
 
 private:
-    void mark_stale(std::uint32_t place);
+    /// The number of stale boxes up to which queries test them one by one.
+    static constexpr std::size_t max_stale = 8;
+
+    void mark_stale(std::uint32_t place) {
+        is_stale_[place] = true;
+        reserve_one_more(stale_);
+        stale_.push_back(place);
+        if (stale_.size() > max_stale) pending_work_.defer();
+    }
     void mark_current();
     void prepare() const;
     template <class MakeReach, class Search>

@@ -40,9 +40,9 @@ void World<D>::find_changed_neighbours() {
 
 /// Whether an item near one of the two has changed.
 template <int D>
-bool World<D>::neighbours_changed(const IdPair& pair) {
+bool World<D>::neighbours_changed(const SlotPair& pair) {
     if (filters_edges_) memory_->find_neighbour_changed.run([this] { find_changed_neighbours(); });
-    const std::uint32_t a = pair.a.index - 1, b = pair.b.index - 1;
+    const auto& [a, b] = pair;
     return (filters_edges(a) && memory_->neighbour_changed[a]) || (filters_edges(b) && memory_->neighbour_changed[b]);
 }
 
@@ -58,10 +58,10 @@ bool World<D>::is_covered(std::size_t ghost, const Id& item) const {
     for (std::uint32_t link = memory_->last_found[slot]; link != none; link = memory_->found_before[link]) {
         const std::size_t other = link / 2;
         const WorldContact<D>& cover = results_.found.contacts[other];
-        if (results_.found.states[other].reported && other != ghost &&
+        if (results_.found.state(other).reported && other != ghost &&
             covers_contact<D>(normal_from_item(cover), static_cast<double>(cover.contact.depth),
                               normal_from_item(result), static_cast<double>(result.contact.depth),
-                              static_cast<double>(results_.found.states[ghost].size)))
+                              static_cast<double>(results_.found.state(ghost).size)))
             return true;
     }
     return false;
@@ -85,7 +85,7 @@ void World<D>::link_contacts() {
 /// or a ghost before it covers is not.
 template <int D>
 bool World<D>::is_reported(std::size_t found) {
-    FoundState& state = results_.found.states[found];
+    FoundState& state = results_.found.change_state(found);
     const WorldContact<D>& contact = results_.found.contacts[found];
     if (!state.surface_normal && contact.contact)
         state.reported = (state.surface_normal.a || !is_covered(found, contact.a)) &&
@@ -99,18 +99,19 @@ template <int D>
 void World<D>::list_results() {
     constexpr std::size_t ahead = 8, cache_line = 64;
     FoundContacts<D>& found = results_.found;
-    bool any_ghost = false, are_all_reported = true;
+    bool any_ghost = false;
     for (FoundState& state : found.states) {
         const bool is_ghost = !state.surface_normal;
         any_ghost = any_ghost || is_ghost;
         state.reported = state.reported && !is_ghost;
-        are_all_reported = are_all_reported && state.reported;
     }
     if (any_ghost) link_contacts();
-    std::swap(touching_, last_touching_);
-    touching_.clear();
-    contacts_.clear();
     const std::span<const TouchingSlots> touches = results_.touching;
+    std::swap(touching_, last_touching_);
+    touching_.resize(touches.size());
+    contacts_.resize(found.size());
+    IdPair* pair = touching_.data();
+    WorldContact<D>* contact = contacts_.data();
     const bool are_cached = items_.size() <= detail::max_cached_items;
     for (std::size_t i = 0; i < touches.size(); ++i) {
         // The contacts are in memory in the order of the tests.
@@ -118,20 +119,21 @@ void World<D>::list_results() {
             const std::size_t later = touches[std::min(i + ahead, touches.size() - 1)].begin;
             const char* const next = reinterpret_cast<const char*>(found.contacts.data() + later);
             for (std::size_t at = 0; at < sizeof(WorldContact<D>); at += cache_line) hwy::Prefetch(next + at);
-            if (!are_all_reported) hwy::Prefetch(found.states.data() + later);
+            if (later < found.states.size()) hwy::Prefetch(&found.states[later]);
         }
         const auto& [slots, begin, end] = touches[i];
         if (begin < end)
-            touching_.push_back({found.contacts[begin].a, found.contacts[begin].b});
+            *pair++ = {found.contacts[begin].a, found.contacts[begin].b};
         else
-            touching_.push_back({id_of(slots.a), id_of(slots.b)});
+            *pair++ = {id_of(slots.a), id_of(slots.b)};
         for (std::size_t k = begin; k < end; ++k) {
-            if (found.states[k].reported || is_reported(k))
-                contacts_.push_back(found.contacts[k]);
-            else if (const std::uint32_t area = found.states[k].own_area; area != FoundState::no_own_area)
-                contacts_.push_back(found.own_areas[area]);
+            if (found.state(k).reported || is_reported(k))
+                *contact++ = found.contacts[k];
+            else if (const std::uint32_t area = found.state(k).own_area; area != FoundState::no_own_area)
+                *contact++ = found.own_areas[area];
         }
     }
+    contacts_.resize(static_cast<std::size_t>(contact - contacts_.data()));
 }
 
 template class World<2>;

@@ -5,6 +5,10 @@
 #include <abut/world/detail/update_state.hpp>
 #include <abut/world/world.hpp>
 
+#include <array>
+#include <cstdint>
+#include <span>
+
 namespace abut {
 
 /// The tests of consecutive near pairs, with their contacts filtered. Several may run at the same time: they change
@@ -19,17 +23,35 @@ public:
     void run(std::size_t begin, std::size_t end);
 
 private:
-    void test_pair(const detail::SlotPair& near);
-    bool test_touch(const IdPair& pair);
-    void test_motion(const IdPair& pair, bool touch);
-    void repeat_last(const IdPair& pair);
-    bool balls_apart(const IdPair& pair) const;
-    bool test_shapes(const IdPair& pair);
-    bool measure(const IdPair& pair, detail::BallEarlyOuts::Entry& entry);
+    /// Two items, in the order of their ids.
+    struct Pair {
+        detail::SlotPair slots;
+        const Item &a, &b;
+
+        bool has_sensor() const { return (a.sensor | b.sensor) != 0; }
+        IdPair ids() const { return {{slots.a + 1, a.generation}, {slots.b + 1, b.generation}}; }
+    };
+    Pair pair_of(const detail::SlotPair& slots) const { return {slots, items_[slots.a], items_[slots.b]}; }
+
+    /// A measured test of the balls: readings of the clock, two at once before and one after it.
+    struct BallSample {
+        std::array<std::uint64_t, 3> clock;
+        bool overlap;
+    };
+    static constexpr int ball_repetitions = 16;
+
+    void test_pair(const Pair& pair);
+    bool test_touch(const Pair& pair);
+    void test_motion(const Pair& pair, bool touch);
+    void repeat_last(const Pair& pair);
+    bool balls_apart(const Pair& pair) const;
+    bool test_shapes(const Pair& pair);
+    BallSample measure_balls(const Pair& pair) const;
+    void add_sample(detail::BallEarlyOuts::Entry& entry, const BallSample& sample, bool touch);
 
     // The filter of internal edges.
-    bool find_contact(const IdPair& pair);
-    bool find_surface_contacts(const IdPair& pair);
+    bool find_contact(const Pair& pair);
+    bool find_surface_contacts(const Pair& pair);
     void filter_contacts();
     bool may_need_filter(std::uint32_t slot) const;
     bool needs_filter(std::uint32_t slot);
@@ -53,15 +75,14 @@ private:
         if (is_large_) frame_ = world_.positions_.of(slot);
     }
     /// Of two items at the same time.
-    std::pair<const View<D>&, const View<D>&> placed_views(const IdPair& pair) {
-        const std::uint32_t a = pair.a.index - 1, b = pair.b.index - 1;
-        const View<D>* first = &placed_view(a);
-        if (memory_.views.share_place(a, b)) first = std::construct_at(&memory_.first, *first);
-        return {*first, placed_view(b)};
+    std::pair<const View<D>&, const View<D>&> placed_views(const detail::SlotPair& slots) {
+        const View<D>* first = &placed_view(slots.a);
+        if (memory_.views.share_place(slots.a, slots.b)) first = std::construct_at(&memory_.first, *first);
+        return {*first, placed_view(slots.b)};
     }
 
     World& world_;
-    const std::vector<Item>& items_ = world_.items_;
+    const std::span<const Item> items_ = world_.items_;
     detail::Neighbourhoods<D>& neighbours_ = world_.memory_->neighbours;
     detail::PairTestMemory<D>& memory_;
     detail::PairResults<D>& results_;

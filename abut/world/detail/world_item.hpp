@@ -25,9 +25,10 @@ struct WorldItem {
     ShapeType type{};
     bool in_use : 1 = false;  ///< false if the slot is free
     bool fixed : 1 = false, sensor : 1 = false, continuous : 1 = false, enabled : 1 = true;
-    bool pending : 1 = false;         ///< changed since the last update
-    bool pending_in_box : 1 = false;  ///< then in one place alone: World::changed_boxes_
-    bool settled : 1 = false;         ///< present at the last update with this shape
+    bool pending : 1 = false;           ///< changed since the last update
+    bool pending_in_box : 1 = false;    ///< then in one place alone: World::changed_boxes_
+    bool settled : 1 = false;           ///< present at the last update with this shape
+    bool ball_is_centered : 1 = false;  ///< the ball is about the origin of that frame: no rotation moves it
 
     ItemOptions<D> options() const { return {pose, user, layers, mask, fixed, sensor, continuous, group, enabled}; }
     void set(const ItemOptions<D>& options) {
