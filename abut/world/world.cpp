@@ -205,7 +205,7 @@ void World<D>::free_slot(std::uint32_t slot) {
 }
 
 template <int D>
-inline void World<D>::update_box(std::uint32_t slot) {
+void World<D>::update_box(std::uint32_t slot) {
     Item& item = items_[slot];
     // Returned by one call, the box stays in registers.
     if (item.enabled && !positions_.are_used())
