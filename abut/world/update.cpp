@@ -55,6 +55,13 @@ bool World<D>::has_new_answer(const detail::SlotPair& pair) const {
     return filters_pairs_ && !std::binary_search(last_near_.begin(), last_near_.end(), pair);
 }
 
+/// Whether both items of a near pair are part of the surface that a third one touches. Sensors are not, and near by
+/// their swept boxes alone is not enough.
+template <int D>
+bool World<D>::are_neighbours(std::uint32_t slot, std::uint32_t other) const {
+    return !items_[slot].sensor && !items_[other].sensor && (!widened_ || are_boxes_near(slot, other));
+}
+
 /// Finds the near pairs, in the order of the broad phases: those of one place lie together, and so their items are in
 /// the caches when they are tested. The threads of an executor report pairs at the same time.
 template <int D>
@@ -69,9 +76,11 @@ void World<D>::find_near(Executor* executor) {
     const auto add = [&](const detail::ItemBoxes<D>& first, const detail::ItemBoxes<D>& second,
                          std::span<const detail::ItemPair> pairs) {
         constexpr std::size_t batch = 64;
+        const std::uint32_t second_is_fixed = &second == &fixed_;
         while (!pairs.empty()) {
             std::array<detail::SlotPair, batch> found;
-            std::size_t count = 0;
+            std::array<detail::NeighbourPair, batch> neighbours;
+            std::size_t count = 0, neighbour_count = 0;
             const std::span next = pairs.first(std::min(batch, pairs.size()));
             if (!are_cached)
                 for (const auto& [i, j] : next) {
@@ -84,14 +93,14 @@ void World<D>::find_near(Executor* executor) {
                     !is_wider || (is_large && detail::DoublePositions<D>::surely_overlap(first.box(i), second.box(j)));
                 if ((!are_near && !may_touch(slot, other)) || !may_pair(slot, other)) continue;
                 found[count++] = {std::min(slot, other), std::max(slot, other)};
+                if (!filters_edges_) continue;
+                neighbours[neighbour_count] = {{{{slot, i, 0}, {other, j, second_is_fixed}}}};
+                neighbour_count += are_neighbours(slot, other);
             }
             pairs = pairs.subspan(next.size());
             const detail::Lock lock(mutex);
             near_.insert(near_.end(), found.begin(), found.begin() + static_cast<std::ptrdiff_t>(count));
-            if (!filters_edges_) continue;
-            for (const auto& [a, b] : std::span(found).first(count))
-                for (const std::uint32_t slot : {a, b})
-                    if (!items_[slot].fixed) memory_->neighbours.count(slot);
+            memory_->neighbours.add(std::span(neighbours).first(neighbour_count));
         }
         return true;
     };
@@ -104,38 +113,6 @@ void World<D>::find_near(Executor* executor) {
     if (filters_pairs_)
         for (std::vector<detail::SlotPair>* pairs : {&near_, &last_near_})
             if (!std::is_sorted(pairs->begin(), pairs->end())) std::sort(pairs->begin(), pairs->end());
-}
-
-/// Whether both items of a near pair are part of the surface that a third one touches. Sensors are not, and near by
-/// their swept boxes alone is not enough.
-template <int D>
-bool World<D>::are_neighbours(std::uint32_t slot, std::uint32_t other) const {
-    return !items_[slot].sensor && !items_[other].sensor && (!widened_ || are_boxes_near(slot, other));
-}
-
-/// Lists the neighbours of the items whose contacts are filtered.
-template <int D>
-void World<D>::list_neighbours() {
-    constexpr std::size_t ahead = 8;
-    const bool are_cached = items_.size() <= detail::max_cached_items;
-    detail::Neighbourhoods<D>& neighbours = memory_->neighbours;
-    neighbours.begin_lists(near_.size());
-    for (std::size_t i = 0; i < near_.size(); ++i) {
-        if (!are_cached) {
-            const detail::SlotPair& later = near_[std::min(i + ahead, near_.size() - 1)];
-            for (const std::uint32_t slot : {later.a, later.b}) {
-                hwy::Prefetch(&items_[slot].place);
-                hwy::Prefetch(&items_[slot].type);
-            }
-            const detail::SlotPair& next = near_[std::min(i + ahead / 2, near_.size() - 1)];
-            for (const std::uint32_t slot : {next.a, next.b}) hwy::Prefetch(&box(slot));
-        }
-        const auto& [a, b] = near_[i];
-        const bool for_a = neighbours.may_have_several(a), for_b = neighbours.may_have_several(b);
-        if ((!for_a && !for_b) || !are_neighbours(a, b)) continue;
-        if (for_a) neighbours.add(a, b, box(b));
-        if (for_b) neighbours.add(b, a, box(a));
-    }
 }
 
 /// Tests all near pairs, with an executor in parts. Meanwhile results_ are those of the last update.
@@ -239,7 +216,7 @@ Events World<D>::find_events(Executor* executor) {
     if (memory_ == nullptr) memory_.reset(new detail::UpdateState<D>());
     memory_->find_neighbour_changed.defer();
     find_near(executor);
-    if (filters_edges_) list_neighbours();
+    if (filters_edges_) memory_->neighbours.make_lists({moving_.boxes(), fixed_.boxes()});
 
     test_near(executor);
     counts_ = {near_.size(), results_.tested, results_.balls};

@@ -420,7 +420,6 @@ private:
     void find_near(Executor* executor);
     bool has_new_answer(const detail::SlotPair& pair) const;
     bool has_changed_near(std::uint32_t slot, std::uint32_t other) const;
-    void list_neighbours();
     class PairTests;
     void test_near(Executor* executor);
     void join_results(std::span<detail::PairResults<D>> parts);

@@ -37,12 +37,14 @@ struct Ints4 {
 
     Ints4() = default;
     Ints4(__m128i v) : raw(v) {}
+    Ints4(std::int32_t all) : raw(_mm_set1_epi32(all)) {}
     Ints4(std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t d) : raw(_mm_set_epi32(d, c, b, a)) {}
 
     std::int32_t operator[](std::size_t i) const { return std::bit_cast<std::array<std::int32_t, 4>>(raw)[i]; }
     friend Ints4 operator&(Ints4 a, Ints4 b) { return _mm_and_si128(a.raw, b.raw); }
     friend Ints4 operator<<(Ints4 v, int bits) { return _mm_slli_epi32(v.raw, bits); }
     friend Ints4 operator>>(Ints4 v, int bits) { return _mm_srai_epi32(v.raw, bits); }
+    friend Mask4 operator==(Ints4 a, Ints4 b) { return {_mm_castsi128_ps(_mm_cmpeq_epi32(a.raw, b.raw))}; }
 };
 struct Floats4 {
     __m128 raw;
@@ -92,6 +94,9 @@ struct Double2 {
 
 inline Floats4 at(const float* four) {
     return _mm_loadu_ps(four);
+}
+inline Ints4 at(const std::uint32_t* four) {
+    return _mm_loadu_si128(reinterpret_cast<const __m128i*>(four));
 }
 /// Two numbers from each of two places.
 inline Floats4 pairs_at(const float* a, const float* b) {
@@ -238,6 +243,7 @@ struct Ints4 {
     std::array<std::int32_t, 4> raw;
 
     Ints4() = default;
+    Ints4(std::int32_t all) : raw{all, all, all, all} {}
     Ints4(std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t d) : raw{a, b, c, d} {}
 
     std::int32_t operator[](std::size_t i) const { return raw[i]; }
@@ -252,6 +258,11 @@ struct Ints4 {
     friend Ints4 operator>>(Ints4 v, int bits) {
         for (std::int32_t& lane : v.raw) lane = lane >> bits;
         return v;
+    }
+    friend Mask4 operator==(Ints4 a, Ints4 b) {
+        Mask4 result;
+        for (std::size_t i = 0; i < 4; ++i) result.raw[i] = a.raw[i] == b.raw[i];
+        return result;
     }
 };
 
@@ -358,6 +369,10 @@ inline Mask2 first(Mask2 mask) {
 
 inline Floats4 at(const float* four) {
     return {four[0], four[1], four[2], four[3]};
+}
+inline Ints4 at(const std::uint32_t* four) {
+    const auto lane = [four](std::size_t i) { return static_cast<std::int32_t>(four[i]); };
+    return {lane(0), lane(1), lane(2), lane(3)};
 }
 inline Floats4 pairs_at(const float* a, const float* b) {
     return {a[0], a[1], b[0], b[1]};

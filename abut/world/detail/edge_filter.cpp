@@ -29,34 +29,25 @@ void World<D>::PairTests::move_to_frame(std::uint32_t slot, View<D>& view) {
     set_offset(view, own, world_.positions_.of(slot) - frame_);
 }
 
-/// Visits the closest points on the neighbours of the item in `slot`, except on the item in `other`.
+/// Visits the closest points on the neighbours of an item beside another one. Near the contact these are few and known.
 template <int D>
-void World<D>::PairTests::each_closest_point_beside(std::uint32_t slot, std::uint32_t other, const DVec<D>& point,
-                                                    double within, ClosestPointVisitor<D> visit) {
+template <class Visit>
+void World<D>::PairTests::each_closest_point_beside(const ContactSide& side, const DVec<D>& point, double within,
+                                                    const Visit& visit) {
     const auto visit_item = [&](std::uint32_t item) {
         each_closest_point_on<D>(placed_view(item), point, within,
                                  [&](const ClosestPoint<D>& closest) { return within = visit(closest); });
         return within > stop_visiting;
     };
-    // It decides the order of the visits alone, so it may come from another thread. At first it wraps to none.
-    const auto last_cover = neighbours_.last_cover(slot);
-    const std::uint32_t last = last_cover.load(std::memory_order_relaxed) - 1, first = last == other ? none : last;
-    if (first != none && !visit_item(first)) return;
+    const auto& [slot, other, is_filtered, known] = side;
     Aabb<D> near = box_around(point, within);
     if (is_large_) near = world_.positions_.about_origin(near, frame_);
-    if (const std::span neighbours = neighbours_.of(slot); neighbours.size() <= max_listed_neighbours) {
-        const typename Neighbour<D>::Query query(near);
-        for (const Neighbour<D>& neighbour : neighbours) {
-            if (!query.overlaps(neighbour) || neighbour.slot == other || neighbour.slot == first) continue;
-            if (visit_item(neighbour.slot)) continue;
-            last_cover.store(neighbour.slot + 1, std::memory_order_relaxed);
-            return;
-        }
-        return;
-    }
+    const NeighbourList<D> neighbours = neighbours_.of(slot);
+    if (known != nullptr && known->cover(near)) return known->each(neighbours, visit_item);
+    if (neighbours.size() <= max_listed_neighbours) return neighbours.each_overlapping(near, other, visit_item);
     for (const detail::ItemBoxes<D>* items : {&world_.moving_, &world_.fixed_}) {
         if (within == stop_visiting) return;
-        items->phase().each_overlapping(near, [&](std::uint32_t place) {
+        items->phase().each_overlapping(near, [&, slot = slot, other = other](std::uint32_t place) {
             const std::uint32_t found = items->slot(place);
             if (found == slot || found == other || !world_.are_neighbours(slot, found) || !world_.may_pair(slot, found))
                 return true;
@@ -79,7 +70,7 @@ bool World<D>::PairTests::is_center_covered(std::uint32_t slot) {
     const DVec<D> frame = frame_;
     set_frame(slot);
     if (const BoundingBall<D> around = world_.ball(slot, frame_); std::isfinite(around.radius))
-        each_closest_point_beside(slot, slot, around.center, 0, [&](const ClosestPoint<D>& closest) {
+        each_closest_point_beside({slot, slot, true}, around.center, 0, [&](const ClosestPoint<D>& closest) {
             is_covered = closest.distance < 0;
             return is_covered ? stop_visiting : 0.0;
         });
@@ -92,15 +83,7 @@ bool World<D>::PairTests::is_center_covered(std::uint32_t slot) {
 /// may touch another one beside the contact.
 template <int D>
 bool World<D>::PairTests::needs_filter(std::uint32_t slot) {
-    return may_need_filter(slot) && !is_center_covered(slot);
-}
-
-/// Whether the item in `slot` may need the surface of its neighbours for a contact: another one may be near it, and as
-/// far as is known its centre is not covered.
-template <int D>
-bool World<D>::PairTests::may_need_filter(std::uint32_t slot) const {
-    return neighbours_.of(slot).size() >= 2 &&
-           neighbours_.center(slot).load(std::memory_order_relaxed) != Neighbourhoods<D>::Center::covered;
+    return neighbours_.may_matter(slot) && !is_center_covered(slot);
 }
 
 /// Finds which of the two items of a contact without parts need the surface of their neighbours: there is one near each
@@ -122,38 +105,47 @@ bool World<D>::PairTests::find_sides_to_filter(const WorldContact<D>& found, Unf
     }
     const float min_depth = contact.depth - static_cast<float>(0.5 * deepest_tolerance) * s;
     // `to_surface` leads from a point of depth 1 to the surface of the other item.
-    const auto needs_filter = [&](std::uint32_t slot, std::uint32_t other, const Vec<D>& to_surface) {
-        if (!may_need_filter(slot)) return false;
-        const std::span neighbours = neighbours_.of(slot);
+    const auto box_around_point = [&](const ContactPoint<D>& point, const Vec<D>& to_surface) -> Aabb<D> {
+        const Vec<D> middle = point.position + to_surface * point.depth + to_origin;
+        return {middle - reach, middle + reach};
+    };
+    const auto needs_filter = [&](std::uint32_t slot, std::uint32_t other, const Vec<D>& to_surface,
+                                  NearNeighbours<D>& near) {
+        if (!neighbours_.may_matter(slot)) return false;
+        Aabb<D> around_all = Aabb<D>::empty();
+        std::size_t count = 0;
         for (const ContactPoint<D>& point : contact.points) {
             if (point.depth < min_depth) continue;
-            const Vec<D> on_surface = point.position + to_surface * point.depth;
-            const Vec<D> middle = on_surface + to_origin;
-            const typename Neighbour<D>::Query near({middle - reach, middle + reach});
-            if (std::none_of(neighbours.begin(), neighbours.end(), [&](const Neighbour<D>& neighbour) {
-                    return near.overlaps(neighbour) && neighbour.slot != other;
-                }))
-                return false;
+            around_all = merged(around_all, box_around_point(point, to_surface));
+            ++count;
         }
-        return !is_center_covered(slot);
+        const NeighbourList<D> neighbours = neighbours_.of(slot);
+        if (!near.find(neighbours, around_all, other)) return false;
+        const auto is_alone = [&](const ContactPoint<D>& point) {
+            const Aabb<D> box = box_around_point(point, to_surface);
+            return point.depth >= min_depth && (neighbours.overlap_bits(0, box, other) & near.bits) == 0;
+        };
+        const bool is_any_alone =
+            near.is_known() && count > 1 && std::any_of(contact.points.begin(), contact.points.end(), is_alone);
+        return !is_any_alone && !is_center_covered(slot);
     };
-    unfiltered.for_a = needs_filter(a, b, contact.normal * -0.5f);
-    unfiltered.for_b = needs_filter(b, a, contact.normal * 0.5f);
+    unfiltered.for_a = needs_filter(a, b, contact.normal * -0.5f, unfiltered.near_a);
+    unfiltered.for_b = needs_filter(b, a, contact.normal * 0.5f, unfiltered.near_b);
     return unfiltered.for_a || unfiltered.for_b;
 }
 
-/// Calls use(neighbours) with what the items in two slots touch beside each other.
+/// Calls use(neighbours) with what two items touch beside each other.
 template <int D>
 template <class Use>
-void World<D>::PairTests::with_neighbours(std::uint32_t a, std::uint32_t b, bool for_a, bool for_b, const Use& use) {
-    const auto closest_points_beside = [this](std::uint32_t slot, std::uint32_t other) {
-        return [this, slot, other](const DVec<D>& point, double within, ClosestPointVisitor<D> visit) {
-            each_closest_point_beside(slot, other, point, within, visit);
+void World<D>::PairTests::with_neighbours(const ContactSide& a, const ContactSide& b, const Use& use) {
+    const auto closest_points_beside = [this](const ContactSide& side) {
+        return [this, &side](const DVec<D>& point, double within, ClosestPointVisitor<D> visit) {
+            each_closest_point_beside(side, point, within, visit);
         };
     };
-    const auto beside_b = closest_points_beside(a, b), beside_a = closest_points_beside(b, a);
+    const auto beside_b = closest_points_beside(a), beside_a = closest_points_beside(b);
     const EachClosestPoint<D> of_a(beside_b), of_b(beside_a);
-    use(NeighbourSurfaces<D>{for_a ? &of_a : nullptr, for_b ? &of_b : nullptr});
+    use(NeighbourSurfaces<D>{a.is_filtered ? &of_a : nullptr, b.is_filtered ? &of_b : nullptr});
 }
 
 /// Finds the contacts of two items and appends them to results_.found. Those of items without parts are filtered later,
@@ -177,8 +169,8 @@ bool World<D>::PairTests::find_contact(const Pair& pair) {
     }
     // Balls have no edges to catch on.
     if (is_filtered && (a.type != ShapeType::ball || b.type != ShapeType::ball) &&
-        (may_need_filter(slots.a) || may_need_filter(slots.b)) && find_sides_to_filter(found, unfiltered) &&
-        memory_.add_unfiltered(results_.found.size() - 1))
+        (neighbours_.may_matter(slots.a) | neighbours_.may_matter(slots.b)) &&
+        find_sides_to_filter(found, unfiltered) && memory_.add_unfiltered(results_.found.size() - 1))
         filter_contacts();
     return true;
 }
@@ -187,12 +179,12 @@ bool World<D>::PairTests::find_contact(const Pair& pair) {
 template <int D>
 bool World<D>::PairTests::find_surface_contacts(const Pair& pair) {
     const auto& [a, b] = pair.slots;
-    const bool for_a = needs_filter(a), for_b = needs_filter(b);
+    const ContactSide for_a{a, b, needs_filter(a)}, for_b{b, a, needs_filter(b)};
     // Copies: the neighbours may take their places in the cache.
     const View<D> placed_a = placed_view(a), placed_b = placed_view(b);
     const std::size_t first = results_.found.size();
     bool touch = false;
-    with_neighbours(a, b, for_a, for_b, [&](const NeighbourSurfaces<D>& neighbours) {
+    with_neighbours(for_a, for_b, [&](const NeighbourSurfaces<D>& neighbours) {
         touch = each_surface_contact<D>(placed_a, placed_b, {}, neighbours, [&](const SurfaceContact<D>& filtered) {
             results_.found.add(pair.ids());
             set_found(results_.found.size() - 1, filtered);
@@ -217,7 +209,9 @@ void World<D>::PairTests::filter_contacts() {
         set_frame(a);
         // Copies: the neighbours may take their places in the cache.
         const View<D> placed_a = placed_view(a), placed_b = placed_view(b);
-        with_neighbours(a, b, unfiltered.for_a, unfiltered.for_b, [&](NeighbourSurfaces<D> neighbours) {
+        const ContactSide for_a{a, b, unfiltered.for_a, &unfiltered.near_a};
+        const ContactSide for_b{b, a, unfiltered.for_b, &unfiltered.near_b};
+        with_neighbours(for_a, for_b, [&](NeighbourSurfaces<D> neighbours) {
             const auto nothing = [] { return NearestToCenter<D>(); };
             if (unfiltered.for_a) neighbours.nearest_to_a = &memory_.nearest[0].of(a, nothing);
             // B's is about the frame of another A.

@@ -53,14 +53,20 @@ private:
     bool find_contact(const Pair& pair);
     bool find_surface_contacts(const Pair& pair);
     void filter_contacts();
-    bool may_need_filter(std::uint32_t slot) const;
     bool needs_filter(std::uint32_t slot);
     bool find_sides_to_filter(const WorldContact<D>& found, detail::UnfilteredContact<D>& unfiltered);
     bool is_center_covered(std::uint32_t slot);
-    void each_closest_point_beside(std::uint32_t slot, std::uint32_t other, const detail::DVec<D>& point, double within,
-                                   detail::ClosestPointVisitor<D> visit);
+    /// One of the two items of a contact, with its neighbours near the contact if they are known.
+    struct ContactSide {
+        std::uint32_t slot, other;
+        bool is_filtered;
+        const detail::NearNeighbours<D>* near = nullptr;
+    };
+    template <class Visit>
+    void each_closest_point_beside(const ContactSide& side, const detail::DVec<D>& point, double within,
+                                   const Visit& visit);
     template <class Use>
-    void with_neighbours(std::uint32_t a, std::uint32_t b, bool for_a, bool for_b, const Use& use);
+    void with_neighbours(const ContactSide& a, const ContactSide& b, const Use& use);
     void set_found(std::size_t index, const detail::SurfaceContact<D>& filtered);
 
     /// Relative to frame_.

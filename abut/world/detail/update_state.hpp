@@ -20,11 +20,12 @@ namespace abut::detail {
 constexpr std::size_t max_cached_items = 4096;
 
 /// A contact of items without parts that isn't filtered yet, by its index among those found, and for which of its items
-/// it needs that.
+/// it needs that, with their neighbours near it.
 template <int D>
 struct UnfilteredContact {
     std::uint32_t found;
     bool for_a, for_b;
+    NearNeighbours<D> near_a, near_b;
     DeepestParts<D> deepest;
 
     /// Written out, as that of DeepestParts: clearing all of it first is slow.

@@ -118,12 +118,8 @@ ClosestPoint<D> closest_point_on(const AnyPart<D>& part, const DVec<D>& point) {
 }
 
 template <int D>
-void each_closest_point_on(const View<D>& shape, const DVec<D>& point, double within, ClosestPointVisitor<D> visit) {
-    if (const auto* convex = std::get_if<Convex<D>>(&shape)) {
-        ClosestPoint<D> closest;
-        if (find_closest_point(*convex, point, within, closest)) visit(closest);
-        return;
-    }
+void each_closest_point_on_parts(const View<D>& shape, const DVec<D>& point, double within,
+                                 ClosestPointVisitor<D> visit) {
     for_each_part(shape, box_around(point, within), [&](const Part<D>& part, std::uint32_t) {
         ClosestPoint<D> closest;
         if (find_closest_point(part, point, within, closest)) within = visit(closest);
@@ -134,7 +130,7 @@ void each_closest_point_on(const View<D>& shape, const DVec<D>& point, double wi
 #define ABUT_INSTANTIATE(D)                                                                       \
     template bool find_closest_point(const Convex<D>&, const DVec<D>&, double, ClosestPoint<D>&); \
     template ClosestPoint<D> closest_point_on(const AnyPart<D>&, const DVec<D>&);                 \
-    template void each_closest_point_on(const View<D>&, const DVec<D>&, double, ClosestPointVisitor<D>);
+    template void each_closest_point_on_parts(const View<D>&, const DVec<D>&, double, ClosestPointVisitor<D>);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

@@ -49,9 +49,19 @@ Aabb<D> box_around(const DVec<D>& point, double within) {
     return {middle - reach, middle + reach};
 }
 
-/// Visits the closest points of the parts of a shape.
+/// Visits the closest points of the parts of a shape that isn't convex.
 template <int D>
-void each_closest_point_on(const View<D>& shape, const DVec<D>& point, double within, ClosestPointVisitor<D> visit);
+void each_closest_point_on_parts(const View<D>& shape, const DVec<D>& point, double within,
+                                 ClosestPointVisitor<D> visit);
+
+/// Visits the closest points of the parts of a shape.
+template <int D, class Visit>
+void each_closest_point_on(const View<D>& shape, const DVec<D>& point, double within, const Visit& visit) {
+    const auto* const convex = std::get_if<Convex<D>>(&shape);
+    if (convex == nullptr) return each_closest_point_on_parts<D>(shape, point, within, visit);
+    ClosestPoint<D> closest;
+    if (find_closest_point(*convex, point, within, closest)) visit(closest);
+}
 
 /// The centre of the box around a part; for a half-space, the nearby point itself.
 template <int D>

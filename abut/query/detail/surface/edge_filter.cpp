@@ -86,16 +86,15 @@ bool is_before(const DVec<D>& a, const DVec<D>& b) {
 
 }  // namespace
 
-/// Whether the part, at distance `own` from p + s n, is the nearest one. Where rounding leaves that open, a face is and
-/// an edge is not.
+/// Whether the part, whose point nearest to p + s n is `own`, is the nearest one. Where rounding leaves that open, a
+/// face is and an edge is not.
 template <int D>
 bool EdgeFilter<D>::is_nearest_part(const Part<D>& part, const SurfacePlace<D>& place, const DVec<D>& probe,
-                                    double own) const {
-    const double nearer = own - nearer_margin * scale_ - 1e-14 * largest(probe);
-    const double certainly_nearer = own - rounding * scale_;
+                                    const ClosestPoint<D>& own, const ClosestPoint<D>& other) const {
+    const double nearer = own.distance - nearer_margin * scale_ - 1e-14 * largest(probe);
+    const double certainly_nearer = own.distance - rounding * scale_, still_relevant = own.distance + rounding * scale_;
     bool covered = false, is_uncertain = false;
-    surface_(probe, own + rounding * scale_, [&](const ClosestPoint<D>& closest) {
-        const double still_relevant = own + rounding * scale_;
+    const auto visit = [&](const ClosestPoint<D>& closest) {
         if (is_behind(closest, scale_)) return still_relevant;
         covered = covered || closest.distance < certainly_nearer;
         if (covered) return stop_visiting;
@@ -104,15 +103,18 @@ bool EdgeFilter<D>::is_nearest_part(const Part<D>& part, const SurfacePlace<D>& 
         const DVec<D> aside = offset - place.normal * dot(offset, place.normal);
         is_uncertain = is_uncertain || closest.distance < nearer || length(aside) > rounding_angle * scale_;
         return still_relevant;
-    });
-    return !covered && (!is_uncertain || is_face(part, place, probe, own, scale_));
+    };
+    visit(own);
+    if (other.distance > still_relevant || visit(other) > stop_visiting) surface_(probe, still_relevant, visit);
+    return !covered && (!is_uncertain || is_face(part, place, probe, own.distance, scale_));
 }
 
 template <int D>
-bool EdgeFilter<D>::is_surface_normal(const Part<D>& part, const SurfacePlace<D>& place) const {
+bool EdgeFilter<D>::is_surface_normal(const Part<D>& part, const SurfacePlace<D>& place,
+                                      const ClosestPoint<D>& other) const {
     const DVec<D> probe = place.point + place.normal * scale_;
-    const double own = closest_point_on(part, probe).distance;
-    if (is_nearest_part(part, place, probe, own)) return true;
+    const ClosestPoint<D> own = closest_point_on(part, probe);
+    if (is_nearest_part(part, place, probe, own, other)) return true;
     const DVec<D> to_center = place.center - place.point;
     const DVec<D> along = to_center - place.normal * dot(to_center, place.normal);
     const double distance = length(along);
@@ -120,13 +122,23 @@ bool EdgeFilter<D>::is_surface_normal(const Part<D>& part, const SurfacePlace<D>
     double reach = first_reach * scale_;
     for (int i = 0; i < max_reaches; ++i, reach *= reach_growth) {
         const DVec<D> farther = probe + along * (std::min(reach, distance) / distance);
-        const double own_farther = closest_point_on(part, farther).distance;
+        const ClosestPoint<D> own_farther = closest_point_on(part, farther);
         // The surface bends: the normal changes here.
-        if (!(std::abs(own_farther - own) <= nearer_margin * scale_)) return false;
+        if (!(std::abs(own_farther.distance - own.distance) <= nearer_margin * scale_)) return false;
         if (is_nearest_part(part, place, farther, own_farther)) return true;
         if (!(reach < distance)) return false;
     }
     return false;
+}
+
+template <int D>
+ClosestPoint<D> EdgeFilter<D>::other_near(const SurfacePlace<D>& place) const {
+    ClosestPoint<D> result;
+    surface_(place.point + place.normal * scale_, 1.1 * scale_, [&](const ClosestPoint<D>& closest) {
+        result = closest;
+        return stop_visiting;
+    });
+    return result;
 }
 
 template <int D>
@@ -137,28 +149,31 @@ bool EdgeFilter<D>::has_normal(const Part<D>& part, const SurfacePlace<D>& place
 template <int D>
 bool EdgeFilter<D>::is_surface_normal_at(const Part<D>& part, const SurfacePlace<D>& place) const {
     const DVec<D> probe = place.point + place.normal * scale_;
-    const double own = closest_point_on(part, probe).distance;
-    return own > (1 - rounding) * scale_ && is_nearest_part(part, place, probe, own);
+    const ClosestPoint<D> own = closest_point_on(part, probe);
+    return own.distance > (1 - rounding) * scale_ && is_nearest_part(part, place, probe, own);
 }
 
-/// The nearest of all closest points, whatever the order of the visits; the query point must not be behind its part.
-/// The distance is infinite if all parts are farther than `within`. A point no farther than `sufficient` may be
-/// returned although another is nearer.
+/// The nearest of all closest points, among them `own`, whatever the order of the visits; the query point must not be
+/// behind its part. The distance is infinite if all parts are farther than `within`. A point no farther than
+/// `sufficient` may be returned although another is nearer.
 template <int D>
-ClosestPoint<D> EdgeFilter<D>::nearest_to(const DVec<D>& point, double within, double sufficient) const {
+ClosestPoint<D> EdgeFilter<D>::nearest_to(const DVec<D>& point, const ClosestPoint<D>& own, double within,
+                                          double sufficient) const {
     ClosestPoint<D> result;
-    surface_(point, within, [&](const ClosestPoint<D>& closest) {
+    const auto visit = [&](const ClosestPoint<D>& closest) {
         const bool is_farther = is_behind(closest, scale_) || closest.distance > result.distance;
         if (!is_farther && (closest.distance < result.distance || is_before(closest.point, result.point)))
             result = closest;
         return result.distance <= sufficient ? stop_visiting : std::min(within, result.distance);
-    });
+    };
+    const double still_relevant = own.distance <= within ? visit(own) : within;
+    if (still_relevant > stop_visiting) surface_(point, still_relevant, visit);
     return result;
 }
 
 template <int D>
-ClosestPoint<D> EdgeFilter<D>::nearest_around(const DVec<D>& point) const {
-    return nearest_to(point, 2 * scale_, min_clearance * scale_);
+ClosestPoint<D> EdgeFilter<D>::nearest_around(const DVec<D>& point, const ClosestPoint<D>& own) const {
+    return nearest_to(point, own, 2 * scale_, min_clearance * scale_);
 }
 
 template <int D>
@@ -168,7 +183,7 @@ bool EdgeFilter<D>::has_plane(const ClosestPoint<D>& closest) const {
 
 template <int D>
 std::optional<DVec<D>> EdgeFilter<D>::normal_towards(const DVec<D>& point) const {
-    const ClosestPoint<D> closest = nearest_around(point);
+    const ClosestPoint<D> closest = nearest_around(point, {});
     if (!has_plane(closest)) return std::nullopt;
     return normalized(point - closest.point);
 }
@@ -176,24 +191,27 @@ std::optional<DVec<D>> EdgeFilter<D>::normal_towards(const DVec<D>& point) const
 template <int D>
 std::optional<SurfacePlane<D>> EdgeFilter<D>::plane_near(const Part<D>& part, const SurfacePlace<D>& place,
                                                          NearestToCenter<D>& nearest) const {
-    const auto plane_at = [&](const DVec<D>& point, ClosestPoint<D> closest) -> std::optional<SurfacePlane<D>> {
+    const auto plane_at = [&](const DVec<D>& point, const ClosestPoint<D>& own,
+                              const ClosestPoint<D>& closest) -> std::optional<SurfacePlane<D>> {
         if (!has_plane(closest)) return std::nullopt;
-        const ClosestPoint<D> own = closest_point_on(part, point);
-        const bool is_nearest = own.distance <= closest.distance + nearer_margin * scale_;
-        if (is_nearest && !is_behind(own, scale_)) closest = own;
-        return SurfacePlane<D>{normalized(point - closest.point), closest.point};
+        const bool is_own = own.distance <= closest.distance + nearer_margin * scale_ && !is_behind(own, scale_);
+        const DVec<D>& on_surface = is_own ? own.point : closest.point;
+        return SurfacePlane<D>{normalized(point - on_surface), on_surface};
     };
     const DVec<D> to_center = place.center - place.point;
     const double distance = length(to_center);
     if (!(distance > scale_)) return std::nullopt;
     const DVec<D> probe = place.point + to_center * (scale_ / distance);
-    if (const auto plane = plane_at(probe, nearest_around(probe))) return plane;
+    const ClosestPoint<D> own = closest_point_on(part, probe);
+    if (const auto plane = plane_at(probe, own, nearest_around(probe, own))) return plane;
+    const ClosestPoint<D> own_of_center = closest_point_on(part, place.center);
     const double within = 1.001 * distance;
     if (!std::isfinite(nearest.closest.distance) && within > nearest.within) {
-        nearest.closest = nearest_to(place.center, within, 0);
+        nearest.closest = nearest_to(place.center, own_of_center, within, 0);
         nearest.within = within;
     }
-    return plane_at(place.center, nearest.closest.distance <= within ? nearest.closest : ClosestPoint<D>());
+    if (nearest.closest.distance > within) return std::nullopt;
+    return plane_at(place.center, own_of_center, nearest.closest);
 }
 
 template class EdgeFilter<2>;

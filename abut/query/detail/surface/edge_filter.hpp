@@ -52,8 +52,8 @@ struct NearestToCenter {
 template <int D>
 class EdgeFilter {
 public:
-    /// `surface` visits the closest points of all parts of the surface, and must outlive this. The size is that of the
-    /// smaller one of the shape and what it touches.
+    /// `surface` visits the closest points of all parts of the surface, and must outlive this. It may leave out the
+    /// part that a test is about. The size is that of the smaller one of the shape and what it touches.
     EdgeFilter(EachClosestPoint<D> surface, double size) : surface_(surface), scale_(surface_probe_scale * size) {}
 
     /// s
@@ -62,8 +62,11 @@ public:
     /// Whether the normal is one of the union's. A one-sided part covers nothing behind it. In a corner, where other
     /// parts are as near or contain the point, the test repeats farther along the part while the normal stays the same,
     /// up to the centre of the other shape. An edge that stands out by no more than rounding, 1e-5 of the size, is no
-    /// edge.
-    bool is_surface_normal(const Part<D>& part, const SurfacePlace<D>& place) const;
+    /// edge. `other` is a closest point on another part that is known to be near, if one is.
+    bool is_surface_normal(const Part<D>& part, const SurfacePlace<D>& place, const ClosestPoint<D>& other = {}) const;
+    /// A closest point on any part of the surface but those left out that is as near to p + s n as the part at p is, up
+    /// to more than rounding; at an infinite distance if there is none. Then a normal of that part is a surface normal.
+    ClosestPoint<D> other_near(const SurfacePlace<D>& place) const;
     /// The same without the tests farther along the part, for a point near its surface.
     bool is_surface_normal_at(const Part<D>& part, const SurfacePlace<D>& place) const;
     /// Whether the part itself has this normal at a point near its surface.
@@ -79,9 +82,11 @@ public:
     std::optional<DVec<D>> normal_towards(const DVec<D>& point) const;
 
 private:
-    bool is_nearest_part(const Part<D>& part, const SurfacePlace<D>& place, const DVec<D>& probe, double own) const;
-    ClosestPoint<D> nearest_to(const DVec<D>& point, double within, double sufficient) const;
-    ClosestPoint<D> nearest_around(const DVec<D>& point) const;
+    bool is_nearest_part(const Part<D>& part, const SurfacePlace<D>& place, const DVec<D>& probe,
+                         const ClosestPoint<D>& own, const ClosestPoint<D>& other = {}) const;
+    ClosestPoint<D> nearest_to(const DVec<D>& point, const ClosestPoint<D>& own, double within,
+                               double sufficient) const;
+    ClosestPoint<D> nearest_around(const DVec<D>& point, const ClosestPoint<D>& own) const;
     bool has_plane(const ClosestPoint<D>& closest) const;
 
     EachClosestPoint<D> surface_;

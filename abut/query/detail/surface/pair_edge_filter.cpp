@@ -27,6 +27,11 @@ bool find_distance_to_plane(const Part<D>& part, const SurfacePlane<D>& plane, S
     return true;
 }
 
+template <int D>
+bool is_none(const ClosestPoint<D>& closest) {
+    return !std::isfinite(closest.distance);
+}
+
 }  // namespace
 
 /// The centre of the bounding box of the shape, computed on the first call; the origin for a half-space.
@@ -52,18 +57,6 @@ SurfacePlace<D> PairEdgeFilter<D>::ForShape::place_on_level(const Part<D>& part,
     return place;
 }
 
-/// Whether every neighbour is farther from p + s n than a part that contains p, by far more than rounding.
-template <int D>
-bool PairEdgeFilter<D>::ForShape::is_alone(const SurfacePlace<D>& place) const {
-    bool alone = true;
-    const double s = filter.scale();
-    (*surface.neighbours)(place.point + place.normal * s, 1.1 * s, [&](const ClosestPoint<D>&) {
-        alone = false;
-        return stop_visiting;
-    });
-    return alone;
-}
-
 /// Whether the normal of a part of the level is a surface normal. The points of the manifold lie midway between two
 /// surfaces; half their depth along the normal moves them to the level. Mostly no other part is near one of the deepest
 /// points, and a cheap test finds that out first; the shape's centre costs more.
@@ -73,7 +66,8 @@ bool PairEdgeFilter<D>::ForShape::is_surface_normal(const Part<D>& part, const P
                                                     FunctionRef<const Manifold<D>&()> manifold_of) const {
     const bool is_one_part = !surface.is_composite();
     SurfacePlace<D> place = point_on_level(distance);
-    if (is_one_part && is_alone(place)) return true;
+    const ClosestPoint<D> other = is_one_part ? filter.other_near(place) : ClosestPoint<D>();
+    if (is_one_part && is_none(other)) return true;
     // Without a face along the normal the area is one point.
     const bool may_have_area =
         FaceNormals<D>(level_part).may_face(distance.normal) || FaceNormals<D>(part).may_face(distance.normal);
@@ -87,17 +81,17 @@ bool PairEdgeFilter<D>::ForShape::is_surface_normal(const Part<D>& part, const P
         sum += on_surface;
         if (!is_one_part || manifold.count == 1 || point.depth < min_depth) continue;
         place.point = on_surface;
-        if (is_alone(place)) return true;
+        if (is_none(filter.other_near(place))) return true;
     }
     place = place_on_level(part, distance);
     if (manifold.count > 1) {
         SurfacePlace<D> center = place;
         center.point = sum / static_cast<double>(manifold.count);
-        if (is_one_part && is_alone(center) ? filter.has_normal(level_part, center)
-                                            : filter.is_surface_normal_at(level_part, center))
+        if (is_one_part && is_none(filter.other_near(center)) ? filter.has_normal(level_part, center)
+                                                              : filter.is_surface_normal_at(level_part, center))
             return true;
     }
-    return filter.is_surface_normal(level_part, place);
+    return filter.is_surface_normal(level_part, place, other);
 }
 
 /// A plane of the surface near the place of the contact.

@@ -60,9 +60,9 @@ bool PartCache<D>::each_closest_point(const DVec<D>& point, double within, Close
 template <int D>
 void Surface<D>::operator()(const DVec<D>& point, double within, ClosestPointVisitor<D> visit) const {
     double reach_left = within;
-    const auto visit_own = [&](const ClosestPoint<D>& closest) { return reach_left = visit(closest); };
-    if (cache == nullptr || !cache->each_closest_point(point, within, visit_own))
-        each_closest_point_on<D>(shape, point, within, visit_own);
+    const auto visit_part = [&](const ClosestPoint<D>& closest) { return reach_left = visit(closest); };
+    if (is_composite() && (cache == nullptr || !cache->each_closest_point(point, within, visit_part)))
+        each_closest_point_on<D>(shape, point, within, visit_part);
     if (neighbours != nullptr && reach_left > stop_visiting) (*neighbours)(point, reach_left, visit);
 }
 

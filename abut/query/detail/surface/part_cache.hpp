@@ -74,7 +74,8 @@ private:
     UninitializedArray<Entry, capacity> entries_;
 };
 
-/// The closest points on a shape and on those that continue its surface.
+/// The closest points on the parts of a composite shape, and on the shapes that continue its surface. A shape of one
+/// part is left out: EdgeFilter has its closest point.
 template <int D>
 struct Surface {
     const View<D>& shape;

@@ -61,7 +61,8 @@ private:
         ForShape(const View<D>& shape, const View<D>& level, bool level_is_b, double size,
                  const EachClosestPoint<D>* neighbours, NearestToCenter<D>* shared)
             : surface{level, neighbours},
-              filter(surface, size),
+              filter(surface.is_composite() || neighbours == nullptr ? EachClosestPoint<D>(surface) : *neighbours,
+                     size),
               shape_(shape),
               level_is_b_(level_is_b),
               nearest_(shared != nullptr ? shared : &own_nearest_) {}
@@ -78,7 +79,6 @@ private:
         EdgeFilter<D> filter;
 
     private:
-        bool is_alone(const SurfacePlace<D>& place) const;
         SurfacePlace<D> point_on_level(const SignedDistance<D>& distance) const;
         SurfacePlace<D> place_on_level(const Part<D>& part, const SignedDistance<D>& distance) const;
         const DVec<D>& center() const;
