@@ -126,7 +126,7 @@ class TestPackage(unittest.TestCase):
         rays[:, 3:] = 1, 0, 0, 50
         hit = world.raycast_many(rays)["hit"]
         add(hit["distance"], hit["point"], hit["normal"])
-        self.assertEqual(digest.hexdigest(), "0ac486b6f80741e5b67d55ad062ca478156ae607c7dfd8d3e0afe80954bc75b1")
+        self.assertEqual(digest.hexdigest(), "6a594f3b7fbc04e9b2c06b3c6ae42c28e600ca91a47479e58b861286bb5862f4")
 
 
 if __name__ == "__main__":

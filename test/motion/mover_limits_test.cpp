@@ -257,6 +257,25 @@ void ride_into_the_ceiling() {
     EXPECT_NEAR(place[1], 1, 0.03);
 }
 
+/// A slab on the corners of two boxes that are nearly one was thrown up by 0.6: behind a plane through a corner its far
+/// end is that deep.
+TEST(MoverLimits, RidgesOfTwoPiecesThrowNobodyUp) {
+    constexpr float eighth = 0.785398163f, diagonal = 0.707106781f;
+    for (const float lower : {0.0f, 1e-5f, 1e-4f, 5e-4f, 1e-3f})
+        for (const float aside : {0.0f, 1e-5f, 1e-4f, 3e-4f, 1e-3f, 2e-3f}) {
+            SCOPED_TRACE(lower);
+            SCOPED_TRACE(aside);
+            World2 world;
+            for (const Vec2& corner : {Vec2(0, -lower), Vec2(aside, 0)})
+                world.add(Box2{{0, 0}, {0.5f, 0.5f}},
+                          {.pose = {corner - Vec2(0, diagonal), Turn::by(eighth)}, .fixed = true});
+            Mover2 mover;
+            const Moved<2> moved = mover.move(world, Box2{{0, 0}, {2, 1}}, {0.3f, 0.99f}, {0.1f, 0});
+            EXPECT_NEAR(moved.position.x, 0.4f, 1e-3);
+            EXPECT_NEAR(moved.position.y, 1.01f, 5e-3);
+        }
+}
+
 TEST(MoverLimits, IsCrushedByALiftUnderACeilingWhereThereIsNoRoomLeft) {
     ride_into_the_ceiling<2>();
     ride_into_the_ceiling<3>();

@@ -362,6 +362,28 @@ TEST(Seams, GiveContactsWithoutTheFilter) {
     }
 }
 
+/// A slab on the corners of two boxes that are nearly one: where they were 2e-6 to 1e-3 apart it was up to 1.6 deep
+/// instead of 0.01, behind a plane through a corner.
+TEST(Seams, RidgesOfTwoPiecesHold) {
+    constexpr float eighth = 0.785398163f, diagonal = 0.707106781f;
+    for (const float lower : {0.0f, 2e-5f, 1e-4f, 5e-4f, 9e-4f, 1.5e-3f})
+        for (const float aside : {0.0f, 2e-6f, 1e-5f, 1e-4f, 1.4e-4f, 3e-4f, 6e-4f, 1e-3f, 2e-3f}) {
+            SCOPED_TRACE(lower);
+            SCOPED_TRACE(aside);
+            World2 world;
+            world.add(Box2{{0, 0}, {2, 1}}, {.pose = {{0.3f, 0.99f}}});
+            for (const Vec2& corner : {Vec2(0, -lower), Vec2(aside, 0)})
+                world.add(Box2{{0, 0}, {0.5f, 0.5f}},
+                          {.pose = {corner - Vec2(0, diagonal), Turn::by(eighth)}, .fixed = true});
+            world.update();
+            EXPECT_GE(world.contacts().size(), 1u);
+            for (const WorldContact<2>& found : world.contacts()) {
+                EXPECT_NEAR(found.contact.normal.y, -1, 1e-6);
+                EXPECT_NEAR(found.contact.depth, 0.01f, lower + 1e-6);
+            }
+        }
+}
+
 /// An item with so many neighbours that they are found through the broad phases.
 TEST(Seams, OfManyPiecesGiveNoContact) {
     World2 world;

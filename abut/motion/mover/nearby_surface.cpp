@@ -251,6 +251,19 @@ std::span<const NearContact<D>> NearbySurface<D>::contacts(const DVec<D>& at, do
         each_closest_point(point, within, visit);
     };
     const EdgeFilter<D> filter(closest_points, size_);
+    const auto ghost_of = [&](const Part<D>& part, const NearContact<D>& own) {
+        Ghost ghost{own};
+        const std::optional<SurfacePlane<D>> plane = filter.plane_near(part, {own.point, own.normal, middle}, seen);
+        if (!plane) return ghost;
+        const DVec<D> deepest = support(shape, -plane->normal);
+        const double gap = dot(plane->normal, deepest - plane->point);
+        ghost.is_on_ridge = gap < own.gap && filter.is_of_ridge(part, *plane, deepest - plane->normal * gap);
+        if (ghost.is_on_ridge) return ghost;
+        ghost.contact.normal = plane->normal;
+        ghost.contact.point = plane->point;
+        ghost.contact.gap = gap;
+        return ghost;
+    };
     parts_.each(box, [&](const PartName& name, const Part<D>& part) {
         if (!passed_.empty() && is_passed(name)) return;
         const std::optional<NearContact<D>> contact = contact_with(name, part);
@@ -259,10 +272,10 @@ std::span<const NearContact<D>> NearbySurface<D>::contacts(const DVec<D>& at, do
         if (filter.is_surface_normal(part, place))
             contacts_.push_back(*contact);
         else if (contact->gap < scale_)
-            ghosts_.push_back({*contact, filter.plane_near(part, place, seen)});
+            ghosts_.push_back(ghost_of(part, *contact));
         if (part.is_function()) add_sides(*contact, shape, part.function(), reach);
     });
-    resolve_ghosts(shape, reach);
+    resolve_ghosts(reach);
     return contacts_;
 }
 
@@ -310,16 +323,12 @@ bool NearbySurface<D>::is_covered(const PartName& name, const SdfPlane<D>& side)
 
 /// A contact that the internal-edge filter dropped is restored if what covers it is out of reach or was dropped too.
 template <int D>
-void NearbySurface<D>::resolve_ghosts(const Convex<D>& shape, double reach) {
+void NearbySurface<D>::resolve_ghosts(double reach) {
     for (const Ghost& ghost : ghosts_) {
-        NearContact<D> contact = ghost.contact;
-        if (ghost.plane) {
-            contact.normal = ghost.plane->normal;
-            contact.point = ghost.plane->point;
-            contact.gap = dot(contact.normal, support(shape, -contact.normal) - contact.point);
-        }
+        const NearContact<D>& contact = ghost.contact;
         const bool reported = std::any_of(contacts_.begin(), contacts_.end(), [&](const NearContact<D>& other) {
-            return covers_contact<D>(other.normal, -other.gap, contact.normal, -contact.gap, size_);
+            return ghost.is_on_ridge ||
+                   covers_contact<D>(other.normal, -other.gap, contact.normal, -contact.gap, size_);
         });
         if (contact.gap <= reach && !reported) contacts_.push_back(contact);
     }

@@ -75,11 +75,11 @@ private:
     bool is_covered(const PartName& name, const SdfPlane<D>& side) const;
     void add_sides(const NearContact<D>& nearest, const Convex<D>& shape, const DistanceFunction<D>& part,
                    double reach);
-    void resolve_ghosts(const Convex<D>& shape, double reach);
+    void resolve_ghosts(double reach);
 
     struct Ghost {
-        NearContact<D> contact;
-        std::optional<SurfacePlane<D>> plane;
+        NearContact<D> contact;    ///< with the plane of the surface, if there is one
+        bool is_on_ridge = false;  ///< then with its own
     };
 
     const World<D>* world_ = nullptr;

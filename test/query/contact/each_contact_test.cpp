@@ -231,6 +231,26 @@ TEST(EachContact, ReportsRealEdges) {
     EXPECT_TRUE(aside);
 }
 
+/// A slab on a ridge of two slopes whose corners are a little apart: a contact of 0.01 came out as 0.5 deep and leant
+/// by 17 degrees, because the surface towards the slab's middle, which is an edge there, counted as a plane.
+TEST(EachContact, ReportsARidgeOfTwoPieces) {
+    for (const float gap : {0.0f, 1e-6f, 1e-5f, 5e-5f, 1e-4f, 2e-4f, 1e-3f}) {
+        SCOPED_TRACE(gap);
+        const std::vector<Vec3> points{{-3, -3, -3}, {-3, -3, 3}, {0, 0, -3},        {0, 0, 3},
+                                       {gap, 0, -3}, {gap, 0, 3}, {gap + 3, -3, -3}, {gap + 3, -3, 3}};
+        const Mesh ridge = *Mesh::build(points, std::vector<glm::uvec3>{{0, 1, 2}, {2, 1, 3}, {4, 5, 6}, {6, 5, 7}});
+        int count = 0;
+        each_contact(Box3{{0.3f, 0.99f, 0}, {2, 1, 1}}, ridge, [&](const Contact<3>& found) {
+            ++count;
+            EXPECT_LT(found.normal.y, -0.9999f);
+            EXPECT_NEAR(found.depth, 0.01f, 1e-5f);
+            EXPECT_GE(found.points.size(), 2u);
+            return true;
+        });
+        EXPECT_EQ(count, 1);
+    }
+}
+
 TEST(EachContact, OfConvexShapesIsTheirContact) {
     const Box3 a{{0, 0, 0}, {1, 1, 1}}, b{{1.9f, 0.2f, 0}, {1, 1, 1}};
     const auto contacts = contacts_of<3>(a, b);

@@ -344,11 +344,12 @@ private:
         const bool are_balls = is_ball(view_a) && is_ball(view_b);
         const detail::EachClosestPoint<D>* const beside_b = are_balls || !is_filtered(a) ? nullptr : &of_a;
         const detail::EachClosestPoint<D>* const beside_a = are_balls || !is_filtered(b) ? nullptr : &of_b;
-        return each_surface_contact<D>(
-            view_a, view_b, {}, {beside_b, beside_a}, [&](const detail::SurfaceContact<D>& found) {
-                found_.push_back({{a.first, b.first, found.contact}, found.own_area, found.surface_normals});
-                return true;
-            });
+        return each_surface_contact<
+            D>(view_a, view_b, {}, {beside_b, beside_a}, [&](const detail::SurfaceContact<D>& found) {
+            const bool is_on_ridge = !found.surface_normals && !std::isfinite(found.size);
+            found_.push_back({{a.first, b.first, found.contact}, found.own_area, found.surface_normals, is_on_ridge});
+            return true;
+        });
     }
     static bool is_ball(const View<D>& view) {
         const auto* convex = std::get_if<detail::Convex<D>>(&view);
@@ -386,7 +387,8 @@ private:
     }
 
     /// Reports the contacts with surface normals. A ghost is reported if no other contact of the item covers it: none
-    /// with a surface normal, and no reported ghost before it. Otherwise its own area is.
+    /// with a surface normal, and no reported ghost before it. Otherwise its own area is. Any contact covers one on a
+    /// ridge.
     void report_contacts() {
         std::vector<bool> reported;
         for (const FoundContact& found : found_) reported.push_back(static_cast<bool>(found.surface_normal));
@@ -406,9 +408,10 @@ private:
                     const WorldContact<D>& other = found_[k].result;
                     const bool shares = k != i && (other.a == item || other.b == item);
                     if (shares && reported[k] &&
-                        detail::covers_contact<D>(normal(other), static_cast<double>(other.contact.depth),
-                                                  normal(ghost.result), static_cast<double>(ghost.result.contact.depth),
-                                                  size))
+                        (ghost.is_on_ridge ||
+                         detail::covers_contact<D>(normal(other), static_cast<double>(other.contact.depth),
+                                                   normal(ghost.result),
+                                                   static_cast<double>(ghost.result.contact.depth), size)))
                         reported[i] = false;
                 }
             }
@@ -440,6 +443,7 @@ private:
         WorldContact<D> result;
         Contact<D> own_area;
         detail::SurfaceNormalFlags surface_normal;
+        bool is_on_ridge;  ///< of the surface
     };
     std::vector<FoundContact> found_;
 };

@@ -16,6 +16,13 @@ constexpr double rounding = 1e-2, rounding_angle = 1e-3;
 /// The rotation of a face that a point just beside the face may show.
 constexpr double face_angle = 1e-5;
 
+/// The angle by which the plane of a floor of pieces may lean where coordinates are rounded. It is mostly less.
+constexpr double max_lean = 0.15, usual_lean = 0.02;
+
+/// The cosine between normals that may be those of one face, 0.2 rad apart: where an edge is uncertain, its normal
+/// leans by up to 0.15 rad.
+constexpr double same_face = 0.98;
+
 /// If other parts cover the normal, it is tested farther along the part: first at this multiple of s, then at this
 /// factor more each time, up to the centre of the other shape.
 constexpr double first_reach = 3, reach_growth = 8;
@@ -87,10 +94,11 @@ bool is_before(const DVec<D>& a, const DVec<D>& b) {
 }  // namespace
 
 /// Whether the part, whose point nearest to p + s n is `own`, is the nearest one. Where rounding leaves that open, a
-/// face is and an edge is not.
+/// face is and an edge is not: that of an edge is uncertain.
 template <int D>
-bool EdgeFilter<D>::is_nearest_part(const Part<D>& part, const SurfacePlace<D>& place, const DVec<D>& probe,
-                                    const ClosestPoint<D>& own, const ClosestPoint<D>& other) const {
+typename EdgeFilter<D>::Nearest EdgeFilter<D>::nearest_part(const Part<D>& part, const SurfacePlace<D>& place,
+                                                            const DVec<D>& probe, const ClosestPoint<D>& own,
+                                                            const ClosestPoint<D>& other) const {
     const double nearer = own.distance - nearer_margin * scale_ - 1e-14 * largest(probe);
     const double certainly_nearer = own.distance - rounding * scale_, still_relevant = own.distance + rounding * scale_;
     bool covered = false, is_uncertain = false;
@@ -106,7 +114,8 @@ bool EdgeFilter<D>::is_nearest_part(const Part<D>& part, const SurfacePlace<D>& 
     };
     visit(own);
     if (other.distance > still_relevant || visit(other) > stop_visiting) surface_(probe, still_relevant, visit);
-    return !covered && (!is_uncertain || is_face(part, place, probe, own.distance, scale_));
+    if (covered) return Nearest::other;
+    return !is_uncertain || is_face(part, place, probe, own.distance, scale_) ? Nearest::own : Nearest::uncertain;
 }
 
 template <int D>
@@ -114,21 +123,23 @@ bool EdgeFilter<D>::is_surface_normal(const Part<D>& part, const SurfacePlace<D>
                                       const ClosestPoint<D>& other) const {
     const DVec<D> probe = place.point + place.normal * scale_;
     const ClosestPoint<D> own = closest_point_on(part, probe);
-    if (is_nearest_part(part, place, probe, own, other)) return true;
+    const Nearest first = nearest_part(part, place, probe, own, other);
+    if (first == Nearest::own) return true;
     const DVec<D> to_center = place.center - place.point;
     const DVec<D> along = to_center - place.normal * dot(to_center, place.normal);
     const double distance = length(along);
-    if (!(distance > scale_)) return false;
     double reach = first_reach * scale_;
-    for (int i = 0; i < max_reaches; ++i, reach *= reach_growth) {
+    for (int i = 0; i < max_reaches && distance > scale_; ++i, reach *= reach_growth) {
         const DVec<D> farther = probe + along * (std::min(reach, distance) / distance);
         const ClosestPoint<D> own_farther = closest_point_on(part, farther);
         // The surface bends: the normal changes here.
-        if (!(std::abs(own_farther.distance - own.distance) <= nearer_margin * scale_)) return false;
-        if (is_nearest_part(part, place, farther, own_farther)) return true;
-        if (!(reach < distance)) return false;
+        if (!(std::abs(own_farther.distance - own.distance) <= nearer_margin * scale_)) break;
+        if (nearest_part(part, place, farther, own_farther) == Nearest::own) return true;
+        if (!(reach < distance)) break;
     }
-    return false;
+    if (first != Nearest::uncertain) return false;
+    const std::optional<SurfacePlane<D>> plane = plane_towards_center(part, place);
+    return plane && has_edge(part, *plane);
 }
 
 template <int D>
@@ -142,6 +153,44 @@ ClosestPoint<D> EdgeFilter<D>::other_near(const SurfacePlace<D>& place) const {
 }
 
 template <int D>
+bool EdgeFilter<D>::is_of_ridge(const Part<D>& part, const SurfacePlane<D>& plane, const DVec<D>& deepest) const {
+    const double span = length(deepest - plane.point);
+    if (is_near(part, deepest, scale_ + usual_lean * span)) return false;
+    return !is_near(part, deepest, scale_ + max_lean * span) || has_edge(part, plane);
+}
+
+/// Whether the part or the rest of the surface is no farther than this from a point.
+template <int D>
+bool EdgeFilter<D>::is_near(const Part<D>& part, const DVec<D>& point, double reach) const {
+    bool result = closest_point_on(part, point).distance <= reach;
+    if (!result)
+        surface_(point, reach, [&](const ClosestPoint<D>&) {
+            result = true;
+            return stop_visiting;
+        });
+    return result;
+}
+
+/// Whether the surface has an edge where a plane touches it: it has another normal beside that point than on its other
+/// side.
+template <int D>
+bool EdgeFilter<D>::has_edge(const Part<D>& part, const SurfacePlane<D>& plane) const {
+    const auto plane_seen_from = [&](const DVec<D>& point) {
+        const ClosestPoint<D> own = closest_point_on(part, point);
+        return plane_at(point, own, nearest_around(point, own));
+    };
+    const auto bends = [&](const DVec<D>& aside) {
+        const DVec<D> above = plane.point + plane.normal * scale_, step = normalized(aside) * (0.3 * scale_);
+        const auto one = plane_seen_from(above + step), other = plane_seen_from(above - step);
+        return one && other && dot(one->normal, other->normal) < same_face;
+    };
+    const DVec<D> aside = perpendicular(plane.normal);
+    if constexpr (D == 3)
+        if (bends(cross(plane.normal, aside))) return true;
+    return bends(aside);
+}
+
+template <int D>
 bool EdgeFilter<D>::has_normal(const Part<D>& part, const SurfacePlace<D>& place) const {
     return closest_point_on(part, place.point + place.normal * scale_).distance > (1 - rounding) * scale_;
 }
@@ -150,7 +199,7 @@ template <int D>
 bool EdgeFilter<D>::is_surface_normal_at(const Part<D>& part, const SurfacePlace<D>& place) const {
     const DVec<D> probe = place.point + place.normal * scale_;
     const ClosestPoint<D> own = closest_point_on(part, probe);
-    return own.distance > (1 - rounding) * scale_ && is_nearest_part(part, place, probe, own);
+    return own.distance > (1 - rounding) * scale_ && nearest_part(part, place, probe, own) == Nearest::own;
 }
 
 /// The nearest of all closest points, among them `own`, whatever the order of the visits; the query point must not be
@@ -188,30 +237,42 @@ std::optional<DVec<D>> EdgeFilter<D>::normal_towards(const DVec<D>& point) const
     return normalized(point - closest.point);
 }
 
+/// The plane at the nearest point, of which `own` is the one on the part.
 template <int D>
-std::optional<SurfacePlane<D>> EdgeFilter<D>::plane_near(const Part<D>& part, const SurfacePlace<D>& place,
-                                                         NearestToCenter<D>& nearest) const {
-    const auto plane_at = [&](const DVec<D>& point, const ClosestPoint<D>& own,
-                              const ClosestPoint<D>& closest) -> std::optional<SurfacePlane<D>> {
-        if (!has_plane(closest)) return std::nullopt;
-        const bool is_own = own.distance <= closest.distance + nearer_margin * scale_ && !is_behind(own, scale_);
-        const DVec<D>& on_surface = is_own ? own.point : closest.point;
-        return SurfacePlane<D>{normalized(point - on_surface), on_surface};
-    };
+std::optional<SurfacePlane<D>> EdgeFilter<D>::plane_at(const DVec<D>& point, const ClosestPoint<D>& own,
+                                                       const ClosestPoint<D>& nearest) const {
+    if (!has_plane(nearest)) return std::nullopt;
+    const bool is_own = own.distance <= nearest.distance + nearer_margin * scale_ && !is_behind(own, scale_);
+    const DVec<D>& on_surface = is_own ? own.point : nearest.point;
+    return SurfacePlane<D>{normalized(point - on_surface), on_surface};
+}
+
+/// The plane seen from s towards the centre.
+template <int D>
+std::optional<SurfacePlane<D>> EdgeFilter<D>::plane_towards_center(const Part<D>& part,
+                                                                   const SurfacePlace<D>& place) const {
     const DVec<D> to_center = place.center - place.point;
     const double distance = length(to_center);
     if (!(distance > scale_)) return std::nullopt;
     const DVec<D> probe = place.point + to_center * (scale_ / distance);
     const ClosestPoint<D> own = closest_point_on(part, probe);
-    if (const auto plane = plane_at(probe, own, nearest_around(probe, own))) return plane;
-    const ClosestPoint<D> own_of_center = closest_point_on(part, place.center);
+    return plane_at(probe, own, nearest_around(probe, own));
+}
+
+template <int D>
+std::optional<SurfacePlane<D>> EdgeFilter<D>::plane_near(const Part<D>& part, const SurfacePlace<D>& place,
+                                                         NearestToCenter<D>& nearest) const {
+    if (const auto plane = plane_towards_center(part, place)) return plane;
+    const double distance = length(place.center - place.point);
+    if (!(distance > scale_)) return std::nullopt;
+    const ClosestPoint<D> own = closest_point_on(part, place.center);
     const double within = 1.001 * distance;
     if (!std::isfinite(nearest.closest.distance) && within > nearest.within) {
-        nearest.closest = nearest_to(place.center, own_of_center, within, 0);
+        nearest.closest = nearest_to(place.center, own, within, 0);
         nearest.within = within;
     }
     if (nearest.closest.distance > within) return std::nullopt;
-    return plane_at(place.center, own_of_center, nearest.closest);
+    return plane_at(place.center, own, nearest.closest);
 }
 
 template class EdgeFilter<2>;

@@ -62,7 +62,8 @@ public:
     /// Whether the normal is one of the union's. A one-sided part covers nothing behind it. In a corner, where other
     /// parts are as near or contain the point, the test repeats farther along the part while the normal stays the same,
     /// up to the centre of the other shape. An edge that stands out by no more than rounding, 1e-5 of the size, is no
-    /// edge. `other` is a closest point on another part that is known to be near, if one is.
+    /// edge, unless the surface has one there. `other` is a closest point on another part that is known to be near, if
+    /// one is.
     bool is_surface_normal(const Part<D>& part, const SurfacePlace<D>& place, const ClosestPoint<D>& other = {}) const;
     /// A closest point on any part of the surface but those left out that is as near to p + s n as the part at p is, up
     /// to more than rounding; at an infinite distance if there is none. Then a normal of that part is a surface normal.
@@ -77,17 +78,26 @@ public:
     /// There is none if everything up to the centre is inside.
     std::optional<SurfacePlane<D>> plane_near(const Part<D>& part, const SurfacePlace<D>& place,
                                               NearestToCenter<D>& nearest) const;
+    /// Whether a plane is that of a ridge and not of a face, because the surface is far from where the shape would be
+    /// deepest behind it. What lies on a ridge is deep behind any plane that touches the ridge.
+    bool is_of_ridge(const Part<D>& part, const SurfacePlane<D>& plane, const DVec<D>& deepest) const;
     /// The normal of the surface nearest to a point that is about s away from it, towards the point; none if the point
     /// is inside or farther.
     std::optional<DVec<D>> normal_towards(const DVec<D>& point) const;
 
 private:
-    bool is_nearest_part(const Part<D>& part, const SurfacePlace<D>& place, const DVec<D>& probe,
+    enum class Nearest : std::uint8_t { own, other, uncertain };
+    Nearest nearest_part(const Part<D>& part, const SurfacePlace<D>& place, const DVec<D>& probe,
                          const ClosestPoint<D>& own, const ClosestPoint<D>& other = {}) const;
+    std::optional<SurfacePlane<D>> plane_at(const DVec<D>& point, const ClosestPoint<D>& own,
+                                            const ClosestPoint<D>& nearest) const;
+    std::optional<SurfacePlane<D>> plane_towards_center(const Part<D>& part, const SurfacePlace<D>& place) const;
     ClosestPoint<D> nearest_to(const DVec<D>& point, const ClosestPoint<D>& own, double within,
                                double sufficient) const;
     ClosestPoint<D> nearest_around(const DVec<D>& point, const ClosestPoint<D>& own) const;
     bool has_plane(const ClosestPoint<D>& closest) const;
+    bool has_edge(const Part<D>& part, const SurfacePlane<D>& plane) const;
+    bool is_near(const Part<D>& part, const DVec<D>& point, double reach) const;
 
     EachClosestPoint<D> surface_;
     double scale_;
@@ -96,8 +106,11 @@ private:
 /// Whether a contact of this normal and depth makes another one superfluous: the normals are about equal, and for an
 /// object of this size the other one is hardly deeper. A contact with a substitute normal is left out where another
 /// contact covers it.
+///
+/// Any contact makes one of infinite size superfluous: one on a ridge of the surface that another part covers.
 template <int D>
 bool covers_contact(const DVec<D>& normal, double depth, const DVec<D>& other, double other_depth, double size) {
+    if (!std::isfinite(size)) return true;
     const double cosine = dot(normal, other);
     if (cosine < 0.99) return false;
     return depth > other_depth - size * (surface_probe_scale + square_root(std::max(0.0, 2 * (1 - cosine))));

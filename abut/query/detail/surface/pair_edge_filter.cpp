@@ -27,6 +27,14 @@ bool find_distance_to_plane(const Part<D>& part, const SurfacePlane<D>& plane, S
     return true;
 }
 
+/// Whether a flat side of the part faces this way, up to 0.0014 rad, so that the part is equally deep all over it.
+template <int D>
+bool has_face_along(const Part<D>& part, const DVec<D>& direction) {
+    if (!part.is_convex() || !FaceNormals<D>(part).may_face(direction)) return false;
+    const Face<D> face = face_along(part.convex(), direction);
+    return face.flat() && dot(face.normal, direction) >= 1 - 1e-6;
+}
+
 template <int D>
 bool is_none(const ClosestPoint<D>& closest) {
     return !std::isfinite(closest.distance);
@@ -119,19 +127,26 @@ SurfaceNormalFlags PairEdgeFilter<D>::surface_normal_flags(const Part<D>& part_a
 }
 
 template <int D>
-bool PairEdgeFilter<D>::replace(const Part<D>& part_a, const Part<D>& part_b, const SurfaceNormalFlags& flags,
-                                SignedDistance<D>& distance) {
+typename PairEdgeFilter<D>::Substitute PairEdgeFilter<D>::replace(const Part<D>& part_a, const Part<D>& part_b,
+                                                                  const SurfaceNormalFlags& flags,
+                                                                  SignedDistance<D>& distance) {
     SignedDistance<D> from_a = distance, from_b = flipped(distance);
+    bool is_on_ridge = false;
     const auto find = [&](ForShape& shape, const Part<D>& part, const Part<D>& level_part, SignedDistance<D>& found) {
         const std::optional<SurfacePlane<D>> plane = shape.plane(part, level_part, distance);
-        return plane && find_distance_to_plane(part, *plane, found);
+        if (!plane || !find_distance_to_plane(part, *plane, found)) return false;
+        if (found.distance >= distance.distance || has_face_along(part, found.normal)) return true;
+        if (!shape.filter.is_of_ridge(level_part, *plane, found.on_b())) return true;
+        is_on_ridge = true;
+        return false;
     };
     const bool are_composite = for_a_.surface.is_composite() && for_b_.surface.is_composite();
     const bool has_a = (are_composite ? size_a_ <= size_b_ : !flags.a) && find(for_a_, part_a, part_b, from_a);
     const bool has_b = (are_composite ? size_b_ <= size_a_ : !flags.b) && find(for_b_, part_b, part_a, from_b);
+    if (!has_a && !has_b) return is_on_ridge ? Substitute::ridge : Substitute::none;
     if (has_b) flip(from_b);
-    if (has_a || has_b) distance = has_a && (!has_b || from_a.distance >= from_b.distance) ? from_a : from_b;
-    return has_a || has_b;
+    distance = has_a && (!has_b || from_a.distance >= from_b.distance) ? from_a : from_b;
+    return Substitute::plane;
 }
 
 template class PairEdgeFilter<2>;

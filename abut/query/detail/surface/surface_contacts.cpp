@@ -92,6 +92,7 @@ private:
         SurfaceNormalFlags flags;
         bool has_flags = false;
         bool is_replaced = false;  ///< by the plane of the surface
+        bool is_on_ridge = false;  ///< of the surface
         bool has_face = false;     ///< on that plane
         Role role = Role::joined;
         std::uint32_t plane = 0;  ///< index of the plane that it is joined to
@@ -118,6 +119,9 @@ private:
     static constexpr std::size_t max_tests = 1 << 20;
 
     double step() const { return filter_.scale(); }
+    double size_of(const Pair& pair) const {
+        return pair.is_on_ridge ? std::numeric_limits<double>::infinity() : filter_.size();
+    }
 
     SurfaceNormalFlags flags_of(const Part<D>& part_a, const Part<D>& part_b, const SignedDistance<D>& distance) const {
         PartContact<D> found{distance, {}};
@@ -243,13 +247,19 @@ private:
             else
                 pair.role = Role::ghost;
         }
-        // Equally deep contacts on one plane are joined, whichever of them came first.
+        join_equally_deep();
+    }
+
+    /// Joins ghosts to planes as deep, whichever of them came first.
+    void join_equally_deep() {
         for (Pair& pair : stored()) {
-            if (pair.role != Role::ghost) continue;
-            const std::size_t plane = plane_of(pair.distance);
-            if (plane == plane_count_ || planes_[plane].depth != -pair.distance.distance) continue;
+            if (pair.role != Role::ghost || pair.is_replaced) continue;
+            const auto plane = std::find_if(planes().begin(), planes().end(), [&](const ContactPlane<D>& each) {
+                return each.depth == -pair.distance.distance && each.has(pair.distance);
+            });
+            if (plane == planes().end()) continue;
             pair.role = Role::joined;
-            pair.plane = static_cast<std::uint32_t>(plane);
+            pair.plane = static_cast<std::uint32_t>(plane - planes().begin());
         }
     }
 
@@ -270,7 +280,8 @@ private:
             Pair other(place);
             if (!touch(part_a, part_b, other.distance) || comes_before(before_, other)) return true;
             other.flags = flags_of(part_a, part_b, other.distance);
-            if (!other.flags && !(are_ghosts && filter_.replace(part_a, part_b, other.flags, other.distance)))
+            if (!other.flags && !(are_ghosts && filter_.replace(part_a, part_b, other.flags, other.distance) ==
+                                                    PairEdgeFilter<D>::Substitute::plane))
                 return true;
             const ContactPlane<D> plane(other.distance, step());
             for (std::size_t i = first; i < plane_count_; ++i)
@@ -326,7 +337,7 @@ private:
     bool report_plane(const Pair& deepest, const Features& features, SurfaceManifold<D>& manifold, Visit visit) {
         SurfaceContact<D> found;
         found.surface_normals = deepest.flags;
-        found.size = filter_.size();
+        found.size = size_of(deepest);
         found.contact.feature_a = features.feature_a;
         found.contact.feature_b = features.feature_b;
         if (!deepest.flags) {
@@ -344,7 +355,9 @@ private:
     void replace_ghosts() {
         each_stored([&](const Part<D>& part_a, const Part<D>& part_b, Pair& pair) {
             if (pair.role != Role::ghost) return;
-            pair.is_replaced = filter_.replace(part_a, part_b, pair.flags, pair.distance);
+            const auto substitute = filter_.replace(part_a, part_b, pair.flags, pair.distance);
+            pair.is_replaced = substitute == PairEdgeFilter<D>::Substitute::plane;
+            pair.is_on_ridge = substitute == PairEdgeFilter<D>::Substitute::ridge;
             const std::optional<DVec<D>> face = face_normal<D>(part_a, part_b, pair.flags, {pair.distance, step()});
             pair.has_face = face.has_value();
             pair.area_normal = face.value_or(pair.distance.normal);
@@ -358,7 +371,7 @@ private:
             if (ghost.role != Role::ghost) continue;
             const bool is_covered = std::any_of(planes().begin(), planes().end(), [&](const ContactPlane<D>& plane) {
                 return covers_contact<D>(plane.normal, plane.depth, ghost.distance.normal, -ghost.distance.distance,
-                                         filter_.size());
+                                         size_of(ghost));
             });
             if (is_covered) continue;
             if (!ghost.is_replaced) {
@@ -367,6 +380,7 @@ private:
             }
             add_plane(ghost);
         }
+        join_equally_deep();
     }
 
     double margin_;
@@ -416,14 +430,15 @@ SurfaceContact<D> filtered_contact(const View<D>& a, const View<D>& b, const Par
         filter.surface_normal_flags(part_a, part_b, own.distance, [&]() -> const Manifold<D>& { return own.manifold; });
     if (flags) return result;
     PairDistance<D> pair{own.distance};
-    const bool is_replaced = filter.replace(part_a, part_b, flags, pair.distance);
+    using Substitute = typename PairEdgeFilter<D>::Substitute;
+    const Substitute substitute = filter.replace(part_a, part_b, flags, pair.distance);
     if (pair.distance.distance > margin) {
         result.contact = {};
         return result;
     }
     result.surface_normals = flags;
-    result.size = filter.size();
-    if (!is_replaced) return result;
+    result.size = substitute == Substitute::ridge ? std::numeric_limits<double>::infinity() : filter.size();
+    if (substitute != Substitute::plane) return result;
     const double step = filter.scale();
     const std::optional<DVec<D>> face = face_normal<D>(part_a, part_b, flags, {pair.distance, step});
     name_features(part_a, part_b, pair.distance, 0, 0, result.contact);

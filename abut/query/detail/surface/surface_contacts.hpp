@@ -48,11 +48,16 @@ public:
                                             const SignedDistance<D>& distance,
                                             FunctionRef<const Manifold<D>&()> manifold_of) const;
 
-    /// Replaces a distance whose normal is no surface normal by that from a plane of the surface. Of two composite
-    /// shapes the larger counts as the level. Of two such planes it takes the one that separates sooner, so that
-    /// swapping A and B changes nothing. Returns false, and changes nothing, if there is no plane.
-    bool replace(const Part<D>& part_a, const Part<D>& part_b, const SurfaceNormalFlags& flags,
-                 SignedDistance<D>& distance);
+    enum class Substitute : std::uint8_t {
+        none,  ///< the surface has no plane there
+        plane,
+        ridge,  ///< the plane is that of a ridge, where the contact isn't as deep
+    };
+    /// Replaces a distance whose normal is no surface normal by that from a plane of the surface, if there is one and
+    /// it isn't that of a ridge. Of two composite shapes the larger counts as the level. Of two such planes it takes
+    /// the one that separates sooner, so that swapping A and B changes nothing.
+    Substitute replace(const Part<D>& part_a, const Part<D>& part_b, const SurfaceNormalFlags& flags,
+                       SignedDistance<D>& distance);
 
 private:
     /// The filter for one of the two shapes. The other one is the level.
@@ -105,7 +110,7 @@ struct SurfaceContact {
     Contact<D> own_area;
     /// False for a side whose surface doesn't have the normal of the parts' contact, which was replaced.
     SurfaceNormalFlags surface_normals;
-    double size = 0;  ///< of the smaller shape, of a contact whose normal was replaced
+    double size = 0;  ///< of the smaller shape, of a contact without a surface normal; infinite on a ridge
 };
 
 /// Visits one contact for each plane on which two shapes touch, of which at least one is composite or has neighbours;
