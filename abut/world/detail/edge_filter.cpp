@@ -105,29 +105,24 @@ bool World<D>::PairTests::find_sides_to_filter(const WorldContact<D>& found, Unf
     }
     const float min_depth = contact.depth - static_cast<float>(0.5 * deepest_tolerance) * s;
     // `to_surface` leads from a point of depth 1 to the surface of the other item.
-    const auto box_around_point = [&](const ContactPoint<D>& point, const Vec<D>& to_surface) -> Aabb<D> {
-        const Vec<D> middle = point.position + to_surface * point.depth + to_origin;
-        return {middle - reach, middle + reach};
-    };
     const auto needs_filter = [&](std::uint32_t slot, std::uint32_t other, const Vec<D>& to_surface,
                                   NearNeighbours<D>& near) {
         if (!neighbours_.may_matter(slot)) return false;
+        const NeighbourList<D> neighbours = neighbours_.of(slot);
         Aabb<D> around_all = Aabb<D>::empty();
-        std::size_t count = 0;
+        bool is_first = true;
         for (const ContactPoint<D>& point : contact.points) {
             if (point.depth < min_depth) continue;
-            around_all = merged(around_all, box_around_point(point, to_surface));
-            ++count;
+            const Vec<D> middle = point.position + to_surface * point.depth + to_origin;
+            const Aabb<D> around{middle - reach, middle + reach};
+            // Mostly there is one point.
+            if (is_first ? !near.find(neighbours, around, other) : !neighbours.any_overlaps(around, other))
+                return false;
+            is_first = false;
+            around_all = merged(around_all, around);
         }
-        const NeighbourList<D> neighbours = neighbours_.of(slot);
-        if (!near.find(neighbours, around_all, other)) return false;
-        const auto is_alone = [&](const ContactPoint<D>& point) {
-            const Aabb<D> box = box_around_point(point, to_surface);
-            return point.depth >= min_depth && (neighbours.overlap_bits(0, box, other) & near.bits) == 0;
-        };
-        const bool is_any_alone =
-            near.is_known() && count > 1 && std::any_of(contact.points.begin(), contact.points.end(), is_alone);
-        return !is_any_alone && !is_center_covered(slot);
+        if (!near.cover(around_all)) near.find(neighbours, around_all, other);
+        return !is_center_covered(slot);
     };
     unfiltered.for_a = needs_filter(a, b, contact.normal * -0.5f, unfiltered.near_a);
     unfiltered.for_b = needs_filter(b, a, contact.normal * 0.5f, unfiltered.near_b);
@@ -169,7 +164,7 @@ bool World<D>::PairTests::find_contact(const Pair& pair) {
     }
     // Balls have no edges to catch on.
     if (is_filtered && (a.type != ShapeType::ball || b.type != ShapeType::ball) &&
-        (neighbours_.may_matter(slots.a) | neighbours_.may_matter(slots.b)) &&
+        (neighbours_.may_matter(slots.a) || neighbours_.may_matter(slots.b)) &&
         find_sides_to_filter(found, unfiltered) && memory_.add_unfiltered(results_.found.size() - 1))
         filter_contacts();
     return true;

@@ -34,12 +34,16 @@ public:
     std::uint64_t overlap_bits(std::size_t first, const Aabb<D>& box, std::uint32_t but) const {
         const std::size_t count = std::min(size() - first, std::size_t{64});
         std::uint64_t result = 0;
-        for (std::size_t i = 0; i < count; i += 4) {
-            const std::uint32_t overlap = overlap_bits_of_four(&boxes_[first + i].min[0], box);
-            const lanes::Mask4 is_but = lanes::at(slots_ + first + i) == lanes::Ints4(static_cast<std::int32_t>(but));
-            result |= std::uint64_t{overlap & ~lanes::bits(is_but)} << i;
-        }
+        for (std::size_t i = 0; i < count; i += 4)
+            result |= std::uint64_t{overlap_bits_of_four(first + i, box, but)} << i;
         return count == 64 ? result : result & ((std::uint64_t{1} << count) - 1);
+    }
+    bool any_overlaps(const Aabb<D>& box, std::uint32_t but) const {
+        for (std::size_t i = 0; i < size(); i += 4) {
+            const std::uint32_t listed = i + 4 <= size() ? 0xF : (1u << size() % 4) - 1;
+            if ((overlap_bits_of_four(i, box, but) & listed) != 0) return true;
+        }
+        return false;
     }
     /// Calls visit(slot) for the neighbours whose boxes overlap this one, except one item, until it returns false.
     template <class Visit>
@@ -50,9 +54,10 @@ public:
     }
 
 private:
-    /// Of four boxes in a row: bit k is set if box k overlaps the other one.
-    static std::uint32_t overlap_bits_of_four(const float* boxes, const Aabb<D>& other) {
+    /// Of four neighbours, of which the last ones may be none.
+    std::uint32_t overlap_bits_of_four(std::size_t begin, const Aabb<D>& other, std::uint32_t but) const {
         static_assert(sizeof(Aabb<D>) == 2 * D * sizeof(float));
+        const float* const boxes = &boxes_[begin].min[0];
         constexpr std::size_t n = 2 * D;
         std::array<lanes::Floats4, n> bounds;
         for (std::size_t i = 0; i < n; i += 2) {
@@ -65,7 +70,8 @@ private:
         for (std::size_t axis = 1; axis < D; ++axis)
             overlap = overlap & (bounds[axis] <= other.max[static_cast<int>(axis)]) &
                       (bounds[axis + D] >= other.min[static_cast<int>(axis)]);
-        return lanes::bits(overlap);
+        const lanes::Mask4 is_but = lanes::at(slots_ + begin) == lanes::Ints4(static_cast<std::int32_t>(but));
+        return lanes::bits(overlap) & ~lanes::bits(is_but);
     }
 
     const Aabb<D>* boxes_;
@@ -91,13 +97,8 @@ struct NearNeighbours {
         region = is_long ? Aabb<D>::empty() : in;
         return is_long | (bits != 0);
     }
-    bool is_known() const { return region.min[0] <= region.max[0]; }
     /// Whether those in this box are among them.
-    bool cover(const Aabb<D>& box) const {
-        bool result = true;
-        for (int i = 0; i < D; ++i) result &= (region.min[i] <= box.min[i]) & (box.max[i] <= region.max[i]);
-        return result;
-    }
+    bool cover(const Aabb<D>& box) const { return contains(region, box); }
     /// Calls visit(slot) for all, until it returns false.
     template <class Visit>
     void each(const NeighbourList<D>& list, const Visit& visit) const {
