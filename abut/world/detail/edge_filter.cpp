@@ -39,19 +39,19 @@ void World<D>::PairTests::each_closest_point_beside(const ContactSide& side, con
                                  [&](const ClosestPoint<D>& closest) { return within = visit(closest); });
         return within > stop_visiting;
     };
-    const auto& [slot, other, is_filtered, known] = side;
     Aabb<D> near = box_around(point, within);
     if (is_large_) near = world_.positions_.about_origin(near, frame_);
-    const NeighbourList<D> neighbours = neighbours_.of(slot);
-    if (known != nullptr && known->cover(near)) return known->each(neighbours, visit_item);
-    if (neighbours.size() <= max_listed_neighbours) return neighbours.each_overlapping(near, other, visit_item);
+    const NeighbourList<D> neighbours = neighbours_.of(side.slot);
+    if (side.near != nullptr && side.near->cover(near)) return side.near->each(neighbours, visit_item);
+    if (neighbours.size() <= max_listed_neighbours) return neighbours.each_overlapping(near, side.other, visit_item);
     for (const detail::ItemBoxes<D>* items : {&world_.moving_, &world_.fixed_}) {
         if (within == stop_visiting) return;
-        items->phase().each_overlapping(near, [&, slot = slot, other = other](std::uint32_t place) {
+        items->phase().each_overlapping(near, [&](std::uint32_t place) {
             const std::uint32_t found = items->slot(place);
-            if (found == slot || found == other || !world_.are_neighbours(slot, found) || !world_.may_pair(slot, found))
+            if (found == side.slot || found == side.other || !world_.are_neighbours(side.slot, found) ||
+                !world_.may_pair(side.slot, found))
                 return true;
-            if (is_large_ && !world_.are_boxes_near(slot, found)) return true;
+            if (is_large_ && !world_.are_boxes_near(side.slot, found)) return true;
             return visit_item(found);
         });
     }

@@ -36,13 +36,11 @@ public:
         std::uint64_t result = 0;
         for (std::size_t i = 0; i < count; i += 4)
             result |= std::uint64_t{overlap_bits_of_four(first + i, box, but)} << i;
-        return count == 64 ? result : result & ((std::uint64_t{1} << count) - 1);
+        return result;
     }
     bool any_overlaps(const Aabb<D>& box, std::uint32_t but) const {
-        for (std::size_t i = 0; i < size(); i += 4) {
-            const std::uint32_t listed = i + 4 <= size() ? 0xF : (1u << size() % 4) - 1;
-            if ((overlap_bits_of_four(i, box, but) & listed) != 0) return true;
-        }
+        for (std::size_t i = 0; i < size(); i += 4)
+            if (overlap_bits_of_four(i, box, but) != 0) return true;
         return false;
     }
     /// Calls visit(slot) for the neighbours whose boxes overlap this one, except one item, until it returns false.
@@ -71,7 +69,8 @@ private:
             overlap = overlap & (bounds[axis] <= other.max[static_cast<int>(axis)]) &
                       (bounds[axis + D] >= other.min[static_cast<int>(axis)]);
         const lanes::Mask4 is_but = lanes::at(slots_ + begin) == lanes::Ints4(static_cast<std::int32_t>(but));
-        return lanes::bits(overlap) & ~lanes::bits(is_but);
+        const std::uint32_t listed = begin + 4 <= size_ ? 0xF : (1u << size_ % 4) - 1;
+        return lanes::bits(overlap) & ~lanes::bits(is_but) & listed;
     }
 
     const Aabb<D>* boxes_;
