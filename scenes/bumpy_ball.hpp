@@ -13,8 +13,8 @@
 
 namespace abut::scenes {
 
-using detail::DVec;
-using detail::to_float;
+using abut::detail::DVec;
+using abut::detail::to_float;
 
 struct BumpyBall {
     std::vector<Vec3> points;

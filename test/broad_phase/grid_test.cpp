@@ -226,7 +226,7 @@ TYPED_TEST(Grids, RaysAlongBordersAndFromFarAway) {
                     origin[i] = edge * static_cast<float>(random.below(5));
                     target[i] = origin[i] + (random.chance(0.5) ? 3 * edge : -3 * edge);
                 }
-            if (random.chance(0.2)) origin[random.below(D)] = random.chance(0.5) ? -1e4f : 3e6f;
+            if (random.chance(0.2)) origin[static_cast<int>(random.below(D))] = random.chance(0.5) ? -1e4f : 3e6f;
             const auto ray = Ray<D>::between(origin, target);
             const auto ordered = [](auto run) {
                 std::vector<std::uint32_t> result;

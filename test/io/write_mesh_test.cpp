@@ -123,12 +123,13 @@ TEST_F(WriteMesh, WritesGltfAsSpecified) {
     ASSERT_EQ(json["accessors"].size(), 2 * parts.size());
     for (std::size_t i = 0; i < parts.size(); ++i) {
         EXPECT_EQ(json["nodes"][i]["name"], parts[i].name);
-        const auto& points = json["accessors"][json["meshes"][i]["primitives"][0]["attributes"]["POSITION"].get<int>()];
-        for (int k = 0; k < 3; ++k) {
+        const auto& points =
+            json["accessors"][json["meshes"][i]["primitives"][0]["attributes"]["POSITION"].get<std::size_t>()];
+        for (std::size_t k = 0; k < 3; ++k) {
             float low = std::numeric_limits<float>::infinity(), high = -low;
             for (const Vec3& p : parts[i].points) {
-                low = std::min(low, p[k]);
-                high = std::max(high, p[k]);
+                low = std::min(low, p[static_cast<int>(k)]);
+                high = std::max(high, p[static_cast<int>(k)]);
             }
             EXPECT_EQ(points["min"][k].get<float>(), low);
             EXPECT_EQ(points["max"][k].get<float>(), high);

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 namespace abut::test {
+using namespace detail;
 namespace {
 
 /// Compares the bits with those of the definition.

@@ -93,7 +93,7 @@ std::map<std::pair<Pair, std::size_t>, Expected> by_all_depths(const Scene& scen
 
 void expect_the_deepest(const Scene& scene) {
     const auto expected = by_all_depths(scene);
-    for (const std::size_t threads : {1, 3}) {
+    for (const std::size_t threads : {1u, 3u}) {
         SceneObjects objects(scene);
         ASSERT_FALSE(objects.go_to(0));
         CheckOptions options;
@@ -119,7 +119,7 @@ void expect_the_deepest(const Scene& scene) {
 }
 
 TEST(DeepestFrames, AreThoseByAllDepths) {
-    for (const std::uint64_t seed : {2911, 2912, 2913}) {
+    for (const std::uint64_t seed : {2911u, 2912u, 2913u}) {
         SCOPED_TRACE(seed);
         const Scene scene = tumbling_bodies(seed, false);
         EXPECT_GT(by_all_depths(scene).size(), 20u);

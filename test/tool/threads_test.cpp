@@ -47,7 +47,7 @@ TEST(Threads, TheSameFindingsWithAnyNumber) {
         const CheckResult<3> one = check_with(scene, clearance, 1);
         EXPECT_GT(one.findings.size(), 30u);
         EXPECT_TRUE(std::any_of(one.findings.begin(), one.findings.end(), [](const auto& f) { return f.between; }));
-        for (const std::size_t threads : {2, 3, 8}) {
+        for (const std::size_t threads : {2u, 3u, 8u}) {
             const CheckResult<3> many = check_with(scene, clearance, threads);
             EXPECT_EQ(many.tested, one.tested);
             EXPECT_EQ(many.swept, one.swept);

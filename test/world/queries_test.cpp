@@ -177,7 +177,7 @@ TEST(Queries, HalfSpacesReachEverywhereAndDontPair) {
 struct Rod {
     Vec2 from{2, -3}, to{3, -2};
 };
-Aabb2 bounds(const Rod& rod) {
+[[maybe_unused]] Aabb2 bounds(const Rod& rod) {
     return {rod.from, rod.to};
 }
 Vec2 support(const Rod& rod, const Vec2& direction) {
