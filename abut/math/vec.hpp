@@ -20,10 +20,13 @@ using Vec = glm::vec<D, float>;
 using Vec2 = Vec<2>;
 using Vec3 = Vec<3>;
 
-// glm's configuration macros change the layout or type of its vectors, which would break the binary interface of the
-// library.
+// glm's configuration macros change the layout or type of its vectors, or how a function takes them, which would break
+// the binary interface of the library.
 static_assert(sizeof(Vec2) == 2 * sizeof(float) && sizeof(Vec3) == 3 * sizeof(float) && alignof(Vec3) == alignof(float),
               "abut needs glm's packed vectors: build without GLM_FORCE_DEFAULT_ALIGNED_GENTYPES");
+static_assert(
+    std::is_trivially_copyable_v<Vec2> && std::is_trivially_copyable_v<Vec3>,
+    "abut needs glm's vectors to be passed in registers: build without GLM_FORCE_CTOR_INIT and GLM_FORCE_CXX98");
 static_assert(std::is_same_v<glm::length_t, int>,
               "abut needs glm's lengths to be int: build without GLM_FORCE_SIZE_T_LENGTH");
 
