@@ -21,7 +21,7 @@ using namespace detail;
 namespace {
 
 int times(int count) {
-    return oracle::is_long() ? 40 * count : count;
+    return oracle::is_long() ? 20 * count : count;
 }
 
 /// A grid of squares with holes, of which no two share only a corner.
