@@ -15,7 +15,7 @@ if(count LESS 200)
     message(FATAL_ERROR "only ${count} sources of the core are found")
 endif()
 string(TIMESTAMP begin %s)
-execute_process(COMMAND ${compiler} -O1 ${flags} ${consumer} ${sources} ${libraries} -pthread -o ${folder}/plain_compiler
+execute_process(COMMAND ${compiler} -O0 ${flags} ${consumer} ${sources} ${libraries} -pthread -o ${folder}/plain_compiler
     COMMAND_ERROR_IS_FATAL ANY)
 string(TIMESTAMP end %s)
 math(EXPR seconds "${end} - ${begin}")
