@@ -240,6 +240,9 @@ Certificate<3> certificate_of_overlap(const View<3>& a, const View<3>& b, const 
 template <int D>
 Certificate<D> certify(const View<D>& a, const View<D>& b, const Closest<D>& answer) {
     Certificate<D> result;
+    // The engines below take finite points alone.
+    const bool are_numbers = is_finite(answer.on_a) && is_finite(answer.on_b) && is_finite(answer.normal);
+    if (!are_numbers || !std::isfinite(answer.distance)) return result;
     if constexpr (D == 3)
         if (has_solid(a, b)) {
             if (answer.distance <= 0) return certificate_of_overlap(a, b, answer);

@@ -7,6 +7,8 @@
 #include <abut/shape/half_space.hpp>
 #include <abut/shape/mesh.hpp>
 
+#include <limits>
+
 #include <gtest/gtest.h>
 
 namespace abut {
@@ -77,6 +79,20 @@ TYPED_TEST(Certify, RefusesWhatIsMadeWrong) {
         elsewhere.on_a += answer.normal * error;
         EXPECT_FALSE(certify(a, b, elsewhere));
     });
+}
+
+// A point that is no number read past the edges of a polygon.
+TYPED_TEST(Certify, RefusesWhatIsNoNumber) {
+    for (std::uint64_t seed = 0; seed < 200; ++seed)
+        this->visit_pair(seed, [](const auto& a, const auto& b, oracle::Random&) {
+            const auto answer = closest(a, b);
+            using Limits = std::numeric_limits<float>;
+            for (const float wrong : {Limits::quiet_NaN(), Limits::infinity(), -Limits::infinity()}) {
+                auto on_a = answer, on_b = answer, normal = answer, distance = answer;
+                on_a.on_a.x = on_b.on_b.y = normal.normal.x = distance.distance = wrong;
+                for (const auto& forged : {on_a, on_b, normal, distance}) EXPECT_FALSE(certify(a, b, forged));
+            }
+        });
 }
 
 TYPED_TEST(Certify, RefusesTheOtherWayOut) {
