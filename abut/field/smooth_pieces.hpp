@@ -114,8 +114,11 @@ bool each_smooth_piece(const FieldData<D>& data, const DVec<D>& low, const DVec<
     constexpr int max_pieces = DistanceBound<D>::max_pieces;
     Cell<D> first, last;
     for (int a = 0; a < D; ++a) {
-        first[a] = std::clamp(static_cast<std::int32_t>(std::max(low[a], 0.0)), 0, last_cell(data, a));
-        last[a] = std::clamp(static_cast<std::int32_t>(std::ceil(high[a])) - 1, first[a], last_cell(data, a));
+        // Limited before they are rounded: a shape may be 1e21 cells wide.
+        const std::int32_t end = last_cell(data, a) + 1;
+        const auto limited = [end](double place) { return std::min(std::max(0.0, place), static_cast<double>(end)); };
+        first[a] = std::min(static_cast<std::int32_t>(limited(low[a])), end - 1);
+        last[a] = std::max(static_cast<std::int32_t>(std::ceil(limited(high[a]))) - 1, first[a]);
         if (last[a] - first[a] >= max_pieces) return false;
         constexpr auto brick = static_cast<std::int32_t>(brick_cells<D>);
         if (data.store != FieldStore::dense && first[a] / brick != last[a] / brick) return false;
