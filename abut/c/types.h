@@ -191,7 +191,8 @@ ABUT_API void abut_buffer_release(ABUT_OPTIONAL abut_buffer* buffer);
 /// Threads for calls that take a pool. Answers don't depend on it, bit by bit.
 typedef struct abut_thread_pool abut_thread_pool;
 
-/// A pool of so many threads, the calling one included; 0: as many as the machine runs at the same time.
+/// A pool of so many threads, the calling one included, and at most 1,024; 0: as many as the machine runs at the same
+/// time.
 ABUT_API abut_code abut_thread_pool_create(uint32_t workers, abut_thread_pool** out);
 
 /// Ends the threads of a pool.

@@ -112,13 +112,14 @@ template <int D>
 bool each_smooth_piece(const FieldData<D>& data, const DVec<D>& low, const DVec<D>& high,
                        const DistanceBound<D>& wanted) {
     constexpr int max_pieces = DistanceBound<D>::max_pieces;
+    // Limited before it is rounded: a shape may be 1e21 cells wide.
+    const auto cell_at = [&](double place, int a) {
+        return static_cast<std::int32_t>(std::min(std::max(0.0, place), static_cast<double>(last_cell(data, a))));
+    };
     Cell<D> first, last;
     for (int a = 0; a < D; ++a) {
-        // Limited before they are rounded: a shape may be 1e21 cells wide.
-        const std::int32_t end = last_cell(data, a) + 1;
-        const auto limited = [end](double place) { return std::min(std::max(0.0, place), static_cast<double>(end)); };
-        first[a] = std::min(static_cast<std::int32_t>(limited(low[a])), end - 1);
-        last[a] = std::max(static_cast<std::int32_t>(std::ceil(limited(high[a]))) - 1, first[a]);
+        first[a] = cell_at(low[a], a);
+        last[a] = std::max(cell_at(std::ceil(high[a]) - 1, a), first[a]);
         if (last[a] - first[a] >= max_pieces) return false;
         constexpr auto brick = static_cast<std::int32_t>(brick_cells<D>);
         if (data.store != FieldStore::dense && first[a] / brick != last[a] / brick) return false;
@@ -161,7 +162,7 @@ bool each_smooth_piece(const FieldData<D>& data, const DVec<D>& low, const DVec<
             from[a] = side[static_cast<std::size_t>(index[a])];
             until[a] = side[static_cast<std::size_t>(index[a]) + 1];
             is_outside = is_outside || from[a] < 0 || until[a] > static_cast<double>(data.cells[a]);
-            cell[a] = std::clamp(static_cast<std::int32_t>(std::max(from[a], 0.0)), 0, last_cell(data, a));
+            cell[a] = cell_at(from[a], a);
         }
         const CellValues<D> values = values_in(data, grid, cell);
         double lowest = std::numeric_limits<double>::infinity(), above = lowest;

@@ -78,6 +78,7 @@ struct ThreadPool::State {
 
 ThreadPool::ThreadPool(std::uint32_t workers) : state_(std::make_unique<State>()) {
     if (workers == 0) workers = std::max(1u, std::thread::hardware_concurrency());
+    workers = std::min(workers, max_workers);
     state_->threads.reserve(workers - 1);
     const auto start = [&] {
         for (std::uint32_t i = 1; i < workers; ++i) state_->threads.emplace_back([this] { state_->work(); });

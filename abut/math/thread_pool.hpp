@@ -14,8 +14,11 @@ namespace abut {
 /// waits about 0.1 ms for the next job before it sleeps.
 class ThreadPool final : public Executor {
 public:
-    /// With this many workers, the calling thread included; by default as many as the machine runs at the same time. If
-    /// the system refuses a thread, with those before it. Where the standard library has no threads, with one worker.
+    static constexpr std::uint32_t max_workers = 1024;
+
+    /// With this many workers, the calling thread included and at most `max_workers`; by default as many as the machine
+    /// runs at the same time. If the system refuses a thread, with those before it. Where the standard library has no
+    /// threads, with one worker.
     explicit ThreadPool(std::uint32_t workers = 0);
     ~ThreadPool() override;
 

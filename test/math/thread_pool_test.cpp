@@ -8,6 +8,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdlib>
+#include <limits>
 #include <numeric>
 #include <thread>
 #include <vector>
@@ -33,6 +34,15 @@ TEST(ThreadPool, RunsEachPartOnce) {
         }
     }
     EXPECT_GE(ThreadPool().workers(), 1u);
+}
+
+// Room for all of them was reserved before: 32 GB.
+TEST(ThreadPool, HasAMaximumOfWorkers) {
+    ThreadPool pool(std::numeric_limits<std::uint32_t>::max());
+    EXPECT_LE(pool.workers(), ThreadPool::max_workers);
+    std::atomic<int> runs = 0;
+    pool.run(10, [&](std::uint32_t) { ++runs; });
+    EXPECT_EQ(runs, 10);
 }
 
 TEST(ThreadPool, RunsPartsAtTheSameTime) {
