@@ -193,17 +193,14 @@ abut_code intersect(const ShapeHandle<D>* a, const ShapeHandle<D>* b, typename C
 }
 
 template <int D>
-abut_code sum(const ShapeHandle<D>* a, const ShapeHandle<D>* b, typename COf<D>::Shape** out) {
+abut_code minkowski(const ShapeHandle<D>* a, const ShapeHandle<D>* b, typename COf<D>::Shape** out,
+                    bool of_negative_b) {
     return with_polytopes<D>(a, b, out, [&](const Convex<D>& x, const Convex<D>& y) {
-        const PolytopeOf<D> result = abut::minkowski_sum(x, y);
-        return give_shape<D>(result, out, result);
-    });
-}
-
-template <int D>
-abut_code difference(const ShapeHandle<D>* a, const ShapeHandle<D>* b, typename COf<D>::Shape** out) {
-    return with_polytopes<D>(a, b, out, [&](const Convex<D>& x, const Convex<D>& y) {
-        const PolytopeOf<D> result = abut::minkowski_difference(x, y);
+        const abut::Aabb<D> of_x = bounds(x), of_y = bounds(y);
+        const abut::Aabb<D> added = of_negative_b ? abut::Aabb<D>{-of_y.max, -of_y.min} : of_y;
+        if (!is_finite(of_x.min + added.min) || !is_finite(of_x.max + added.max))
+            return report(Fault{ABUT_NOT_FINITE, "the sum", "is not finite"});
+        const PolytopeOf<D> result = of_negative_b ? abut::minkowski_difference(x, y) : abut::minkowski_sum(x, y);
         return give_shape<D>(result, out, result);
     });
 }
@@ -296,11 +293,11 @@ abut_code measure(const ShapeHandle<D>* shape, typename COf<D>::Measures* out) {
         return intersect<D>(a, b, out);                                                                             \
     }                                                                                                               \
     abut_code abut_shape##D##_minkowski_sum(const abut_shape##D* a, const abut_shape##D* b, abut_shape##D** out) {  \
-        return sum<D>(a, b, out);                                                                                   \
+        return minkowski<D>(a, b, out, false);                                                                      \
     }                                                                                                               \
     abut_code abut_shape##D##_minkowski_difference(const abut_shape##D* a, const abut_shape##D* b,                  \
                                                    abut_shape##D** out) {                                           \
-        return difference<D>(a, b, out);                                                                            \
+        return minkowski<D>(a, b, out, true);                                                                       \
     }                                                                                                               \
     abut_code abut_shape##D##_bounds(const abut_shape##D* shape, abut_aabb##D* out) {                               \
         return bounds_of<D>(shape, out);                                                                            \

@@ -260,11 +260,11 @@ ABUT_API abut_code abut_shape3_polytope(const abut_shape3* shape, float toleranc
 ABUT_API abut_code abut_shape2_intersection(const abut_shape2* a, const abut_shape2* b, abut_shape2** out);
 ABUT_API abut_code abut_shape3_intersection(const abut_shape3* a, const abut_shape3* b, abut_shape3** out);
 
-/// All points p + q, p in A and q in B, of two polytopes.
+/// All points p + q, p in A and q in B, of two polytopes; NOT_FINITE if some are beyond the range of floats.
 ABUT_API abut_code abut_shape2_minkowski_sum(const abut_shape2* a, const abut_shape2* b, abut_shape2** out);
 ABUT_API abut_code abut_shape3_minkowski_sum(const abut_shape3* a, const abut_shape3* b, abut_shape3** out);
 
-/// All points p - q, p in A and q in B, of two polytopes.
+/// All points p - q, p in A and q in B, of two polytopes; NOT_FINITE if some are beyond the range of floats.
 ABUT_API abut_code abut_shape2_minkowski_difference(const abut_shape2* a, const abut_shape2* b, abut_shape2** out);
 ABUT_API abut_code abut_shape3_minkowski_difference(const abut_shape3* a, const abut_shape3* b, abut_shape3** out);
 
