@@ -78,7 +78,7 @@ constexpr int usual_pairs = 10'000;
 #endif
 
 TEST(Corpus, HasNoWrongAnswer) {
-    const auto pairs = static_cast<std::uint64_t>(oracle::case_count(usual_pairs));
+    const auto pairs = static_cast<std::uint64_t>(oracle::case_count(usual_pairs, 100));
     const Summary all = judged(0, pairs);
     RecordProperty("pairs", std::to_string(all.pairs));
     RecordProperty("worst_distance_of_margin", std::to_string(all.worst_distance));

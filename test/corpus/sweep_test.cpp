@@ -112,7 +112,7 @@ void expect_right(const SweepSummary& all) {
 }
 
 TEST(SweepCorpus, IsNeverLateNorMissedNorFalse) {
-    const auto pairs = static_cast<std::uint64_t>(std::min(oracle::case_count(usual_sweeps), 1'100'000));
+    const auto pairs = static_cast<std::uint64_t>(std::min(oracle::case_count(usual_sweeps, 100), 1'100'000));
     expect_right(judged_sweeps(pairs, [](const Place& where) { return judged_sweep(where); }));
 }
 
@@ -135,7 +135,7 @@ TEST(SweepCorpus, PassesSweepsThatOnceFailed) {
 }
 
 TEST(SweepCorpus, OfPlainShapesIsNeverLateNorMissedNorFalse) {
-    const auto pairs = static_cast<std::uint64_t>(std::min(oracle::case_count(usual_sweeps), 1'100'000));
+    const auto pairs = static_cast<std::uint64_t>(std::min(oracle::case_count(usual_sweeps, 100), 1'100'000));
     expect_right(judged_sweeps(pairs, [](const Place& where) { return judged_plain_sweep(where.family, where.seed); }));
 }
 
@@ -146,7 +146,7 @@ constexpr int usual_sweeps_by_planes = 1'000;
 #endif
 
 TEST(SweepCorpus, OfHalfSpacesAndRoundShapesIsNeverLateNorMissedNorFalse) {
-    const auto pairs = static_cast<std::uint64_t>(std::min(oracle::case_count(usual_sweeps_by_planes), 400'000));
+    const auto pairs = static_cast<std::uint64_t>(std::min(oracle::case_count(usual_sweeps_by_planes, 100), 400'000));
     SweepSummary all;
     for (std::uint64_t kind = 0; kind < 4; ++kind) {
         const SweepSummary one =

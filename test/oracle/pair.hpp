@@ -8,9 +8,9 @@
 
 namespace abut::oracle {
 
-/// The number of random cases of a test: `few`, or a hundred times as many if the environment sets ABUT_LONG.
-inline int case_count(int few) {
-    return is_long() ? 100 * few : few;
+/// The number of random cases of a test: `few`, or so many times as many if the environment sets ABUT_LONG.
+inline int case_count(int few, int when_long = 40) {
+    return is_long() ? when_long * few : few;
 }
 
 template <int D>
