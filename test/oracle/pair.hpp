@@ -8,7 +8,7 @@
 
 namespace abut::oracle {
 
-/// The number of random cases of a test: `few`, or so many times as many if the environment sets ABUT_LONG.
+/// The number of random cases of a test: `few`, or `when_long` times as many if the environment sets ABUT_LONG.
 inline int case_count(int few, int when_long = 40) {
     return is_long() ? when_long * few : few;
 }
